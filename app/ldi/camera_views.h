@@ -28,13 +28,17 @@ public:
     enum class Sight { Seen, Hidden, Beside };
     /// Beside: outside of the picture, or behind the camera. `tolerance_m`: farther than the surface, along the window's normal.
     [[nodiscard]] Sight sight(const glm::dvec3& point, double tolerance_m) const;
-    [[nodiscard]] std::uint64_t bytes() const { return nearness_.size() * sizeof(float); }
+    /// Of everything between two places at most some ten pixels apart, and around: Hidden if none of it is seen.
+    [[nodiscard]] Sight sight_between(const glm::dvec3& from, const glm::dvec3& to, double tolerance_m) const;
+    [[nodiscard]] std::uint64_t bytes() const { return (nearness_.size() + coarse_.size()) * sizeof(float); }
 
 private:
     PictureCamera camera_;
     PictureMap map_;
     double per_metre_; ///< farness
     std::vector<float> nearness_;
+    int coarse_columns_, coarse_rows_;
+    std::vector<float> coarse_; ///< of 16 x 16 pixels and those around them
 };
 
 class CameraViews {
@@ -66,5 +70,9 @@ private:
 /// True if one of `cameras`, all drawn, sees the place, or none looks there.
 [[nodiscard]] bool may_be_seen(const CameraViews& views, std::span<const std::size_t> cameras,
                                const glm::dvec3& point, double tolerance_m);
+
+/// False only if none of `cameras` sees a place between two that are close together, or around.
+[[nodiscard]] bool may_be_seen_between(const CameraViews& views, std::span<const std::size_t> cameras,
+                                       const glm::dvec3& from, const glm::dvec3& to, double tolerance_m);
 
 } // namespace frustumscreen::ldi

@@ -14,6 +14,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -77,6 +78,10 @@ public:
     /// Of rays, from a pixel to the next one.
     [[nodiscard]] const glm::dvec3& per_column() const { return per_column_; }
     [[nodiscard]] const glm::dvec3& per_row() const { return per_row_; }
+    /// A step in depth by a pixel's size where the step is made changes the nearness by this share of it.
+    [[nodiscard]] double step_share() const {
+        return glm::length(toward_plane_) * std::max(glm::length(per_column_), glm::length(per_row_));
+    }
 
 private:
     bool usable_ = false;

@@ -20,6 +20,8 @@ constexpr std::uint32_t lines_of_cell =
 constexpr double seen_behind = 1.5; // texels
 /// Crossings nearer to each other are one, of triangles that coincide.
 constexpr float min_distance = 1e-4F; // texels
+/// A larger distance from the relief is a gap between two surfaces, which finer texels would not close.
+constexpr double max_compared = 4.0; // texels
 
 glm::dvec3 applied(const glm::dmat4& matrix, const glm::dvec3& point) {
     return glm::dvec3(matrix[0]) * point.x + glm::dvec3(matrix[1]) * point.y +
@@ -39,9 +41,8 @@ std::pair<int, int> whole(double low, double high, int max) {
 class GridBand::CellRecorder : public relief::CellLines {
 public:
     explicit CellRecorder(GridBand& band) : band_(band) {}
-    void cross(int column, int row, const glm::dvec2& /*range*/,
-               relief::CellCrossings& found) const override {
-        band_.take_slot(column, row);
+    void cross(int column, int row, const glm::dvec2& range, relief::CellCrossings& found) const override {
+        band_.take_slot(column, row, glm::vec2(range));
         found.crossings.clear();
         found.first.fill(0);
     }
@@ -82,10 +83,11 @@ bool GridBand::make(const BandScene& scene, int band, std::span<const FacingTria
     place(scene, band, facing, triangles);
     cross(scene, band);
     sort();
+    drop_hidden();
     find_cut_cells(scene);
     constexpr std::uint64_t bytes_of_cell =
         3 * lines_of_cell * (sizeof(FineFound) + sizeof(relief::LineCrossing)) / 2;
-    if (bytes_of_cell * slot_count_ > scene.max_bytes) {
+    if (bytes_of_cell * slot_ranges_.size() > scene.max_bytes) {
         return false;
     }
     cross_cut_cells(scene);
@@ -129,37 +131,54 @@ void GridBand::cross(const BandScene& scene, int band) {
     lines_.rows = band_rows + 1;
     window_from_band_ = scene.grid.window_from_grid;
     window_from_band_[3] += window_from_band_[1] * (double(band) * band_rows);
-    const double margin_m = 3.0 * scene.texel_m;
     for (std::uint32_t k = 0; k < placed_.size(); ++k) {
         const GridTriangle& shape = placed_[k].shape;
         const auto [top, bottom] = whole(shape.low().y, shape.high().y, band_rows);
         for (int row = top; row <= bottom; ++row) {
             const auto [low, high] = shape.columns(row, row);
             const auto [left, right] = whole(low, high, lines_.columns - 1);
-            for (int column = left; column <= right; ++column) {
-                if (!shape.holds(column, row)) {
-                    continue;
+            // Most of a large triangle may be hidden.
+            constexpr int run = 8;
+            for (int first = left; first <= right; first += run) {
+                const int last = std::min(right, first + run - 1);
+                const auto point = [&](int column) {
+                    return applied(window_from_band_,
+                                   {column, row, static_cast<double>(shape.crossing(column, row).w)});
+                };
+                if (right - left < run || may_be_seen_between(scene.views, scene.cameras, point(first),
+                                                              point(last), 2.0 * run * scene.texel_m)) {
+                    cross_run(scene, k, row, first, last);
                 }
-                Found found{static_cast<std::uint32_t>(lines_.line(column, row)), k, {}};
-                static_cast<relief::LineCrossing&>(found.crossing) = shape.crossing(column, row);
-                const glm::dvec3 point =
-                    applied(window_from_band_, {column, row, static_cast<double>(found.crossing.w)});
-                if (scene.view.clip().beyond(point, margin_m) != 0) {
-                    continue;
-                }
-                if (scene.world.cut_out) {
-                    found.crossing.colour = surface_colour(scene.world, placed_[k].triangle, point,
-                                                           glm::dvec3(window_from_band_[2]));
-                    if (!is_solid(found.crossing.colour)) {
-                        continue;
-                    }
-                }
-                found.crossing.own =
-                    placed_[k].own && scene.view.clip().beyond(point, scene.texel_m) == 0 &&
-                    may_be_seen(scene.views, scene.cameras, point, seen_behind * scene.texel_m);
-                found_.push_back(found);
             }
         }
+    }
+}
+
+void GridBand::cross_run(const BandScene& scene, std::uint32_t placed, int row, int left, int right) {
+    const GridTriangle& shape = placed_[placed].shape;
+    const double margin_m = 3.0 * scene.texel_m;
+    for (int column = left; column <= right; ++column) {
+        if (!shape.holds(column, row)) {
+            continue;
+        }
+        Found found{static_cast<std::uint32_t>(lines_.line(column, row)), placed, {}};
+        static_cast<relief::LineCrossing&>(found.crossing) = shape.crossing(column, row);
+        const glm::dvec3 point =
+            applied(window_from_band_, {column, row, static_cast<double>(found.crossing.w)});
+        if (scene.view.clip().beyond(point, margin_m) != 0) {
+            continue;
+        }
+        if (scene.world.cut_out) {
+            found.crossing.colour = surface_colour(scene.world, placed_[placed].triangle, point,
+                                                   glm::dvec3(window_from_band_[2]));
+            if (!is_solid(found.crossing.colour)) {
+                continue;
+            }
+            found.crossing.colour.a = 255;
+        }
+        found.crossing.own = placed_[placed].own && scene.view.clip().beyond(point, scene.texel_m) == 0 &&
+                             may_be_seen(scene.views, scene.cameras, point, seen_behind * scene.texel_m);
+        found_.push_back(found);
     }
 }
 
@@ -203,17 +222,66 @@ void GridBand::sort() {
     lines_.first.back() = static_cast<std::uint32_t>(lines_.crossings.size());
 }
 
-std::uint32_t GridBand::take_slot(int column, int row) {
+void GridBand::drop_hidden() {
+    std::vector<bool>& kept = coloured_; // free until the crossings get colours
+    kept.assign(lines_.crossings.size(), false);
+    for (int row = 0; row <= band_rows; ++row) {
+        for (int column = 0; column < lines_.columns; ++column) {
+            const std::size_t line = lines_.line(column, row);
+            for (std::uint32_t k = lines_.first[line]; k < lines_.first[line + 1]; ++k) {
+                const relief::Crossing& own = lines_.crossings[k];
+                if (!own.own) {
+                    continue;
+                }
+                // More than what linked_cells.cpp allows between neighbours on smooth surfaces.
+                const float reach = 4.0F + 2.0F * (std::abs(own.slope_u) + std::abs(own.slope_v));
+                for (int y = std::max(0, row - 1); y <= std::min(band_rows, row + 1); ++y) {
+                    const std::uint32_t first = lines_.first[lines_.line(std::max(0, column - 1), y)];
+                    const std::uint32_t end =
+                        lines_.first[lines_.line(std::min(lines_.columns - 1, column + 1), y) + 1];
+                    for (std::uint32_t other = first; other < end; ++other) {
+                        if (std::abs(lines_.crossings[other].w - own.w) < reach) {
+                            kept[other] = true;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    std::uint32_t count = 0;
+    std::uint32_t begin = 0;
+    for (std::size_t line = 0; line + 1 < lines_.first.size(); ++line) {
+        const std::uint32_t end = lines_.first[line + 1];
+        const std::uint32_t first = count;
+        for (std::uint32_t k = begin; k < end; ++k) {
+            if (kept[k]) {
+                lines_.crossings[count] = lines_.crossings[k];
+                placed_of_[count] = placed_of_[k];
+                ++count;
+            }
+        }
+        begin = end;
+        lines_.first[line] = first;
+    }
+    lines_.first.back() = count;
+    lines_.crossings.resize(count);
+    placed_of_.resize(count);
+}
+
+std::uint32_t GridBand::take_slot(int column, int row, const glm::vec2& range) {
     std::uint32_t& slot = slots_[cell_at(column, row)];
     if (slot == no_slot) {
-        slot = slot_count_++;
+        slot = static_cast<std::uint32_t>(slot_ranges_.size());
+        slot_ranges_.push_back(range);
     }
+    glm::vec2& all = slot_ranges_[slot];
+    all = {std::min(all.x, range.x), std::max(all.y, range.y)};
     return slot;
 }
 
 void GridBand::find_cut_cells(const BandScene& scene) {
     slots_.assign(lines_.first.size(), no_slot);
-    slot_count_ = 0;
+    slot_ranges_.clear();
     compared_.clear();
     coloured_.assign(lines_.crossings.size(), scene.world.cut_out);
     const CellRecorder recorder(*this);
@@ -227,8 +295,9 @@ void GridBand::find_cut_cells(const BandScene& scene) {
                                row + (k >> 1));
                 }
                 if (cell.whole() && (7 * column + 13 * row) % compared_share == 0) {
-                    compared_.push_back(
-                        {take_slot(column, row), 0.25F * (cell.w[0] + cell.w[1] + cell.w[2] + cell.w[3])});
+                    const float w = 0.25F * (cell.w[0] + cell.w[1] + cell.w[2] + cell.w[3]);
+                    constexpr auto reach = static_cast<float>(max_compared);
+                    compared_.push_back({take_slot(column, row, {w - reach, w + reach}), w});
                 }
             }
         }
@@ -249,7 +318,7 @@ void GridBand::set_colour(const BandScene& scene, std::uint32_t crossing, int co
 
 void GridBand::cross_cut_cells(const BandScene& scene) {
     fine_found_.clear();
-    if (slot_count_ == 0) {
+    if (slot_ranges_.empty()) {
         return;
     }
     for (const Placed& placed : placed_) {
@@ -270,6 +339,12 @@ void GridBand::cross_cut_cells(const BandScene& scene) {
 void GridBand::cross_cell(const BandScene& scene, const Placed& placed, int column, int row) {
     const GridTriangle& shape = placed.shape;
     const std::uint32_t slot = slots_[cell_at(column, row)];
+    const glm::vec2 range = slot_ranges_[slot];
+    const relief::LineCrossing at = shape.crossing(column + 0.5, row + 0.5);
+    const float around = 0.5F * (std::abs(at.slope_u) + std::abs(at.slope_v));
+    if (at.w + around < range.x || at.w - around > range.y) {
+        return;
+    }
     const auto [top, bottom] = whole((shape.low().y - row) * parts, (shape.high().y - row) * parts, parts);
     for (int j = top; j <= bottom; ++j) {
         const double v = row + static_cast<double>(j) / parts;
@@ -281,6 +356,9 @@ void GridBand::cross_cell(const BandScene& scene, const Placed& placed, int colu
                 continue;
             }
             const relief::LineCrossing crossing = shape.crossing(u, v);
+            if (crossing.w < range.x || crossing.w > range.y) {
+                continue;
+            }
             if (scene.world.cut_out &&
                 !is_solid(surface_colour(scene.world, placed.triangle,
                                          applied(window_from_band_, {u, v, static_cast<double>(crossing.w)}),
@@ -295,7 +373,7 @@ void GridBand::cross_cell(const BandScene& scene, const Placed& placed, int colu
 }
 
 void GridBand::sort_cut_cells() {
-    fine_first_.assign(std::size_t{slot_count_} * lines_of_cell + 1, 0);
+    fine_first_.assign(slot_ranges_.size() * lines_of_cell + 1, 0);
     for (const FineFound& found : fine_found_) {
         ++fine_first_[found.line + 1];
     }
@@ -325,7 +403,8 @@ void GridBand::compare(Roughness& roughness) const {
             least = std::min(least, std::abs(fine_[k].w - compared.w));
         }
         if (std::isfinite(least)) {
-            roughness.squares += static_cast<double>(least) * static_cast<double>(least);
+            const double off = std::min(max_compared, static_cast<double>(least));
+            roughness.squares += off * off;
             ++roughness.lines;
         }
     }

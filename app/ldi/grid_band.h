@@ -75,7 +75,10 @@ private:
     void place(const BandScene& scene, int band, std::span<const FacingTriangle> facing,
                std::span<const std::uint32_t> triangles);
     void cross(const BandScene& scene, int band);
+    void cross_run(const BandScene& scene, std::uint32_t placed, int row, int left, int right);
     void sort();
+    /// Leaves only crossings that the direction draws, and those that may continue them.
+    void drop_hidden();
     void find_cut_cells(const BandScene& scene);
     void set_colour(const BandScene& scene, std::uint32_t crossing, int column, int row);
     void cross_cut_cells(const BandScene& scene);
@@ -87,7 +90,8 @@ private:
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(lines_.columns) +
                static_cast<std::size_t>(column);
     }
-    std::uint32_t take_slot(int column, int row);
+    /// `range`: of heights that the cell asks for.
+    std::uint32_t take_slot(int column, int row, const glm::vec2& range);
 
     glm::dmat4 window_from_band_{1.0};
     std::vector<Placed> placed_;
@@ -97,7 +101,7 @@ private:
     std::vector<std::uint32_t> placed_of_; ///< of each crossing of `lines_`
     std::vector<bool> coloured_;           ///< the same
     std::vector<std::uint32_t> slots_;     ///< of each cell, or `no_slot`
-    std::uint32_t slot_count_ = 0;
+    std::vector<glm::vec2> slot_ranges_; ///< lowest and highest of the heights that each slot's cell asks for
     std::vector<FineFound> fine_found_;
     std::vector<std::uint32_t> fine_first_; ///< of each line of each slot, and the end
     std::vector<relief::LineCrossing> fine_;

@@ -9,18 +9,17 @@ namespace frustumscreen::ldi {
 namespace {
 
 constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
-/// A picture's larger differences, as a share of the nearness, are steps between surfaces: for a pixel of a 500th of the
-/// distance, a slant of more than 88.9 degrees.
-constexpr double max_slope_share = 0.1;
-
+/// Larger differences of a picture's neighbours, in steps, are between surfaces, or on one that is slanted by more than 80.5
+/// degrees.
+constexpr double max_picture_steps = 6.0;
 /// A picture's pixel is put into the pixels of the image whose middles it covers, but not into farther ones.
 constexpr double max_half_box_px = 1.5;
 
 /// The step to a neighbour on the same surface, along x or y: the smaller of the two, 0 where there is none.
-double slope_at(const DepthPicture& picture, std::size_t pixel, std::size_t stride, bool has_before,
-                bool has_after) {
+double slope_at(const DepthPicture& picture, double step_share, std::size_t pixel, std::size_t stride,
+                bool has_before, bool has_after) {
     const double here = static_cast<double>(picture.nearness[pixel]);
-    const double limit = max_slope_share * here;
+    const double limit = max_picture_steps * step_share * here;
     double least = std::numeric_limits<double>::infinity();
     if (has_before && picture.nearness[pixel - stride] > 0.0F) {
         least = here - static_cast<double>(picture.nearness[pixel - stride]);
@@ -40,9 +39,10 @@ struct SurfacePoint {
 SurfacePoint surface_at(const DepthPicture& picture, const PictureMap& map, int x, int y) {
     const std::size_t pixel = picture.at(x, y);
     const double nearness = static_cast<double>(picture.nearness[pixel]);
-    const double across = slope_at(picture, pixel, 1, x > 0, x + 1 < picture.camera.width);
-    const double down = slope_at(picture, pixel, static_cast<std::size_t>(picture.camera.width), y > 0,
-                                 y + 1 < picture.camera.height);
+    const double across = slope_at(picture, map.step_share(), pixel, 1, x > 0, x + 1 < picture.camera.width);
+    const double down =
+        slope_at(picture, map.step_share(), pixel, static_cast<std::size_t>(picture.camera.width), y > 0,
+                 y + 1 < picture.camera.height);
     const glm::dvec3 point = map.point(x + 0.5, y + 0.5, nearness);
     return {point, map.point(x + 1.5, y + 0.5, nearness + across) - point,
             map.point(x + 0.5, y + 1.5, nearness + down) - point};
@@ -75,14 +75,7 @@ glm::dvec2 slope_in(const PictureMap& map, const SurfacePoint& surface, double l
 
 LayerMerger::LayerMerger(const PictureCamera& camera, double tolerance_steps)
     : camera_(camera), map_(camera), tolerance_steps_(tolerance_steps),
-      heads_(camera.pixel_count(), no_node) {
-    if (map_.usable()) {
-        // Depth is distance / nearness; a step of pitch / nearness in it changes the nearness by this share.
-        const double distance =
-            -1.0 / map_.farness(map_.eye() + glm::normalize(glm::cross(camera.half_right, camera.half_up)));
-        step_share_ = std::max(glm::length(map_.per_column()), glm::length(map_.per_row())) / distance;
-    }
-}
+      heads_(camera.pixel_count(), no_node) {}
 
 void LayerMerger::add(const DepthPicture& picture) {
     const PictureMap from(picture.camera);
@@ -98,7 +91,7 @@ void LayerMerger::add(const DepthPicture& picture) {
             const SurfacePoint surface = surface_at(picture, from, x, y);
             if (const auto place = map_.project(surface.point)) {
                 const glm::dvec2 slope =
-                    slope_in(map_, surface, max_slope_steps * step_share_ * place->nearness);
+                    slope_in(map_, surface, max_slope_steps * map_.step_share() * place->nearness);
                 add_box(*place, half_box(map_, surface, *place),
                         {0.0F, glm::vec2(slope), picture.colours[pixel]});
             }
@@ -134,8 +127,8 @@ void LayerMerger::insert(std::size_t pixel, const DepthPixel& added) {
     for (std::uint32_t node = heads_[pixel]; node != no_node; node = nodes_[node].next) {
         const DepthPixel& other = nodes_[node].pixel;
         const auto apart = static_cast<double>(std::fabs(other.nearness - added.nearness));
-        if (apart <=
-            tolerance_steps_ * step_share_ * static_cast<double>(std::max(other.nearness, added.nearness))) {
+        if (apart <= tolerance_steps_ * map_.step_share() *
+                         static_cast<double>(std::max(other.nearness, added.nearness))) {
             return;
         }
         if (other.nearness < added.nearness) {
@@ -165,8 +158,13 @@ LayeredDepth LayerMerger::take() const {
 
 PictureCamera camera_around(std::span<const DepthPicture* const> pictures, const glm::dvec3& eye,
                             const PixelGrid& grid) {
-    // One pixel in the grid's middle; all others go on from it.
-    PictureCamera unit{eye, grid.middle, 0.5 * grid.pitch_m * grid.right, 0.5 * grid.pitch_m * grid.up, 1, 1};
+    // One pixel, whose upper left corner is the grid's middle; all others go on from it.
+    PictureCamera unit{eye,
+                       grid.middle + 0.5 * grid.pitch_m * (grid.right - grid.up),
+                       0.5 * grid.pitch_m * grid.right,
+                       0.5 * grid.pitch_m * grid.up,
+                       1,
+                       1};
     const PictureMap map(unit);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     glm::dvec2 low(infinity);
@@ -193,7 +191,7 @@ PictureCamera camera_around(std::span<const DepthPicture* const> pictures, const
     const double side = std::clamp(grid.max_side, 1, max_picture_side);
     low = glm::max(glm::floor(low), glm::dvec2(-std::floor(0.5 * side)));
     high = glm::max(low + 1.0, glm::min(glm::floor(high) + 1.0, low + side));
-    const glm::dvec2 middle = 0.5 * (low + high) - 0.5; // from the grid's middle, to the right and down
+    const glm::dvec2 middle = 0.5 * (low + high); // from the grid's, to the right and down
     const glm::dvec2 size = high - low;
     return {eye,
             grid.middle + grid.pitch_m * (middle.x * grid.right - middle.y * grid.up),

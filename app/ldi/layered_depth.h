@@ -72,12 +72,11 @@ private:
     PictureCamera camera_;
     PictureMap map_;
     double tolerance_steps_;
-    double step_share_ = 0.0;          ///< of a nearness: what a step of a pixel's size changes of it
     std::vector<std::uint32_t> heads_; ///< of each pixel the farthest node, or `no_node`
     std::vector<Node> nodes_;
 };
 
-/// A plane and the size of pixels on it. `right` and `up` are unit and at right angles.
+/// A plane and the size of pixels on it, four of which meet in its middle. `right` and `up` are unit and at right angles.
 struct PixelGrid {
     glm::dvec3 middle{0.0}, right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0};
     double pitch_m = 0.0;            ///< above 0

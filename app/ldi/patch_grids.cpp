@@ -37,7 +37,7 @@ PatchGrids::PatchGrids(const PatchView& view, const glm::dvec3& low, const glm::
     box_m = std::max({size.x, size.y, size.z});
     box_size = size / box_m;
     const glm::dvec3 bottom(0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z);
-    const glm::dmat3 window_from_patch = glm::transpose(view.patch_from_window());
+    const glm::dmat3 window_from_patch = glm::inverse(view.patch_from_window());
     window_from_box = glm::dmat4(box_m * window_from_patch);
     window_from_box[3] = glm::dvec4(window_from_patch * bottom, 1.0);
     const auto texel_box = static_cast<double>(static_cast<float>(texel / box_m)); // as a relief stores it

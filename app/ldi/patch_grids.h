@@ -28,7 +28,7 @@ struct PatchGrids {
     double texel_m = 0.0;
     double box_m = 1.0; ///< the box's unit
     glm::dvec3 box_size{1.0};
-    glm::dmat4 window_from_box{1.0}; ///< affine: turned, moved and scaled alike along all axes
+    glm::dmat4 window_from_box{1.0}; ///< affine
     std::array<PatchGrid, grid_directions> directions;
 
     /// Around `low` to `high`, patch frame.

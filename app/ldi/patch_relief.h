@@ -47,9 +47,8 @@ struct PatchLimits {
     /// Of one patch: its blocks, and what is kept while it is made. With less than that, its texels become larger. Beside it are
     /// 20 bytes for each triangle that faces the patch, and 200 for each one of a row of blocks.
     std::uint64_t max_bytes = std::uint64_t{64} << 20U;
-    /// A patch with a larger error is made again with finer texels, once, if the memory allows it. Texels, as
-    /// `PatchRelief::error_texels`. A parallax shows at most about half of an error along the lines.
-    double max_error_texels = 1.0;
+    /// A patch with a larger `PatchRelief::error_texels` is made again with finer texels, once, if the memory allows it.
+    double max_error_texels = 0.5;
 };
 
 /// Makes a patch in small steps.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace frustumscreen::ldi {
 
@@ -34,8 +35,13 @@ std::vector<glm::dvec3> eyes_of(const Hemisphere& hemisphere, std::size_t patch)
     return eyes;
 }
 
-glm::dmat3 patch_from_window(const ImagePlane& plane) {
-    return glm::transpose(glm::dmat3(plane.right, plane.up, plane.normal));
+glm::dmat3 patch_from_window(const Hemisphere& hemisphere, std::size_t patch,
+                             const glm::dvec2& half_extent_m) {
+    const ImagePlane plane = hemisphere.image_plane_of(patch);
+    const double beside_rad = std::atan(glm::length(half_extent_m) / hemisphere.radius_m());
+    const double angle_rad =
+        std::min(0.5 * std::numbers::pi, hemisphere.directions_of(patch).cone_rad + beside_rad);
+    return glm::transpose(glm::dmat3(plane.right, plane.up, std::sin(angle_rad) * plane.normal));
 }
 
 std::array<glm::dvec3, 3> corners_of(const TriangleWorld& world, std::uint32_t triangle) {
@@ -44,10 +50,9 @@ std::array<glm::dvec3, 3> corners_of(const TriangleWorld& world, std::uint32_t t
             glm::dvec3(world.positions[indices[2]])};
 }
 
-/// Directions that see a surface with this unit normal, patch frame. The direction towards the eyes is preferred: what is
-/// steep to it is mostly as steep to them.
+/// Directions that see a surface with this unit normal, patch frame.
 void add_directions(FacingTriangle& facing, const glm::dvec3& normal) {
-    constexpr double preferred = 0.25;     // in cosine
+    constexpr double preferred = 0.05;     // the direction towards the eyes: in cosine
     constexpr double shared_cosine = 0.06; // as the bake's
     constexpr double rim_cosine =
         0.45; // a direction that sees it worse by more does not even continue its own there
@@ -74,7 +79,7 @@ void add_directions(FacingTriangle& facing, const glm::dvec3& normal) {
 
 PatchView::PatchView(const Hemisphere& hemisphere, std::size_t patch, const glm::dvec2& half_extent_m,
                      double texel_m)
-    : patch_from_window_(ldi::patch_from_window(hemisphere.image_plane_of(patch))),
+    : patch_from_window_(ldi::patch_from_window(hemisphere, patch, half_extent_m)),
       clip_(eyes_of(hemisphere, patch), half_extent_m), margin_m_(4.0 * texel_m),
       radius_m_(hemisphere.radius_m()), axis_(hemisphere.middle_of(patch)),
       cone_cos_(std::cos(hemisphere.directions_of(patch).cone_rad)),
@@ -109,7 +114,7 @@ FacingTriangle PatchView::facing(const TriangleWorld& world, std::uint32_t trian
     }
     const glm::dvec3 normal = cross / length;
     const unsigned sides = sides_seen(normal, corners[0]);
-    const glm::dvec3 in_patch = patch_from_window_ * normal;
+    const glm::dvec3 in_patch = glm::normalize(glm::inverse(glm::transpose(patch_from_window_)) * normal);
     if ((sides & 1U) != 0) {
         add_directions(facing, in_patch);
     }

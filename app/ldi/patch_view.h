@@ -1,6 +1,8 @@
 /// From where a patch is seen, and what of a world it shows.
 ///
-/// Frames   window (triangle_world.h); patch: the axes of the patch's image plane, metres, origin in the window's middle.
+/// Frames   window (triangle_world.h); patch: the axes of the patch's image plane, metres, origin in the window's middle. Depths
+///          are multiplied by the sine of the largest angle between a ray that the patch shows and the plane's normal: what is
+///          steep to the plane is seen that much shorter, so it needs no more texels.
 /// Threads  values; any.
 #pragma once
 

@@ -36,7 +36,7 @@ struct ImageBasedObject {
 
 /// Cameras of a side: one on its axis, four around it.
 inline constexpr std::size_t side_camera_count = 5;
-/// Of the four, from the axis: where the eyes of a cap of 120 degrees are halved in area between it and them.
+/// Of the four, from the axis: a cap of 120 degrees has half of its area inside of them.
 inline constexpr double side_camera_polar_rad = 0.7227342478134157; ///< acos(3/4)
 
 /// `radius_m`: from a side's middle to its cameras. Pixels on the sides are as large as on the window, but at most `max_side` a
@@ -44,8 +44,8 @@ inline constexpr double side_camera_polar_rad = 0.7227342478134157; ///< acos(3/
 [[nodiscard]] ImageBasedObject image_based_object(const TriangleWorld& world, double radius_m,
                                                   const CameraView& view);
 
-/// Numbers of the sides that the eye is before, the nearest to the direction of its view first: three at most, and from within
-/// the box the side that the eye is nearest to.
+/// Numbers of the sides that the eye is before, the one that it is farthest before first: three at most, and from within the
+/// box the side that the eye is nearest to.
 struct SeenSides {
     std::array<std::size_t, 3> numbers{};
     std::size_t count = 0;

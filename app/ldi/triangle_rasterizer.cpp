@@ -228,17 +228,11 @@ void TriangleRasterizer::find_colours(const Target& target) {
     }
 }
 
-void TriangleRasterizer::draw(const TriangleWorld& world, DepthPicture& picture) {
-    const PictureMap map(picture.camera);
-    if (!map.usable()) {
-        return;
-    }
-    const Target target{world, map, picture};
-    seen_.assign(picture.camera.pixel_count(), none);
-    place_corners(world, map, picture.camera);
+void TriangleRasterizer::draw_triangles(const Target& target, std::size_t first, std::size_t end) {
     constexpr std::size_t triangles_ahead = 24;
+    const TriangleWorld& world = target.world;
     const std::size_t count = world.triangle_count();
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = first; k < end; ++k) {
         const std::uint32_t* indices = &world.indices[3 * k];
         if (k + triangles_ahead < count) { // a mesh in no order of places asks for any
             for (std::size_t j = 0; j < 3; ++j) {
@@ -259,7 +253,36 @@ void TriangleRasterizer::draw(const TriangleWorld& world, DepthPicture& picture)
                           static_cast<std::uint32_t>(k));
         }
     }
+}
+
+void TriangleRasterizer::draw(const TriangleWorld& world, DepthPicture& picture) {
+    const PictureMap map(picture.camera);
+    if (!map.usable()) {
+        return;
+    }
+    const Target target{world, map, picture};
+    begin_depths(world, picture);
+    draw_triangles(target, 0, world.triangle_count());
     find_colours(target);
+}
+
+void TriangleRasterizer::begin_depths(const TriangleWorld& world, const DepthPicture& picture) {
+    const PictureMap map(picture.camera);
+    seen_.assign(picture.camera.pixel_count(), none);
+    place_corners(world, map, picture.camera);
+}
+
+void TriangleRasterizer::draw_depths(const TriangleWorld& world, DepthPicture& picture, std::size_t first,
+                                     std::size_t count) {
+    const PictureMap map(picture.camera);
+    if (map.usable()) {
+        draw_triangles({world, map, picture}, first, std::min(world.triangle_count(), first + count));
+    }
+}
+
+std::uint64_t TriangleRasterizer::bytes() const {
+    return corners_.capacity() * sizeof(Corner) + cells_.capacity() * sizeof(Cell) +
+           seen_.capacity() * sizeof(std::uint32_t);
 }
 
 } // namespace frustumscreen::ldi

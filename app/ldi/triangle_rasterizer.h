@@ -14,6 +14,7 @@
 #include "app/ldi/depth_picture.h"
 #include "app/ldi/triangle_world.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,13 @@ public:
     /// Adds to what the picture holds, by depth: also to one that was splatted (layered_depth.h). `DepthPicture::begin` comes
     /// first.
     void draw(const TriangleWorld& world, DepthPicture& picture);
+
+    /// The same in parts, without colours: places all corners, then each call draws `count` triangles from `first` on. World
+    /// and picture stay as they are until the last part is drawn.
+    void begin_depths(const TriangleWorld& world, const DepthPicture& picture);
+    void draw_depths(const TriangleWorld& world, DepthPicture& picture, std::size_t first, std::size_t count);
+    /// Of memory that it keeps.
+    [[nodiscard]] std::uint64_t bytes() const;
 
 private:
     /// A position in the picture.
@@ -41,6 +49,7 @@ private:
     void draw_triangle(const Target& target, const Corner& a, const Corner& b, const Corner& c,
                        std::uint32_t triangle);
     void draw_cut(const Target& target, std::uint32_t triangle);
+    void draw_triangles(const Target& target, std::size_t first, std::size_t end);
     void find_colours(const Target& target);
 
     std::vector<Corner> corners_;
