@@ -10,16 +10,33 @@ PictureCamera camera_through_window(const glm::dvec3& eye, const glm::dvec2& hal
     return {eye, glm::dvec3(0.0), {half_extent_m.x, 0.0, 0.0}, {0.0, half_extent_m.y, 0.0}, width, height};
 }
 
+namespace {
+
+constexpr double max_coordinate_m = 1e9;
+constexpr double min_distance_share = 1e-6; ///< of the rectangle's size
+
+bool within_reach(const glm::dvec3& point) {
+    return std::fabs(point.x) <= max_coordinate_m && std::fabs(point.y) <= max_coordinate_m &&
+           std::fabs(point.z) <= max_coordinate_m;
+}
+/// Above 0, and its square and the inverse of that are finite.
+bool has_length(double length) {
+    return length > 1.0 / max_coordinate_m && length < max_coordinate_m;
+}
+
+} // namespace
+
 PictureMap::PictureMap(const PictureCamera& camera) : eye_(camera.eye) {
-    const double right2 = glm::dot(camera.half_right, camera.half_right);
-    const double up2 = glm::dot(camera.half_up, camera.half_up);
-    if (!(right2 > 0.0 && up2 > 0.0) || !std::isfinite(right2 + up2) || camera.width < 1 ||
-        camera.height < 1 || camera.width > max_picture_side || camera.height > max_picture_side) {
+    const double half_width = glm::length(camera.half_right);
+    const double half_height = glm::length(camera.half_up);
+    if (!has_length(half_width) || !has_length(half_height) || !within_reach(camera.eye) ||
+        !within_reach(camera.middle) || camera.width < 1 || camera.height < 1 ||
+        camera.width > max_picture_side || camera.height > max_picture_side) {
         return;
     }
-    const glm::dvec3 normal = glm::normalize(glm::cross(camera.half_right, camera.half_up));
+    const glm::dvec3 normal = glm::cross(camera.half_right / half_width, camera.half_up / half_height);
     const double distance = glm::dot(normal, camera.eye - camera.middle);
-    if (!(distance > 0.0) || !std::isfinite(distance) || !std::isfinite(1.0 / distance)) {
+    if (!(distance > min_distance_share * std::fmax(half_width, half_height))) {
         return;
     }
     per_column_ = 2.0 * camera.half_right / static_cast<double>(camera.width);
@@ -30,20 +47,15 @@ PictureMap::PictureMap(const PictureCamera& camera) : eye_(camera.eye) {
     rows_ = per_row_ / glm::dot(per_row_, per_row_);
     first_column_ = -glm::dot(columns_, to_corner_);
     first_row_ = -glm::dot(rows_, to_corner_);
-    usable_ = std::isfinite(glm::dot(toward_plane_, toward_plane_)) && std::isfinite(first_column_) &&
-              std::isfinite(first_row_) &&
-              std::isfinite(glm::dot(columns_, columns_) + glm::dot(rows_, rows_));
+    usable_ = true;
 }
 
 std::optional<PictureMap::Place> PictureMap::project(const glm::dvec3& point) const {
     const glm::dvec3 place = homogeneous(point);
-    if (!usable_ || !(place.z > 0.0)) {
+    if (!usable_ || !(place.z >= min_farness && std::isfinite(place.z))) {
         return std::nullopt;
     }
     const double nearness = 1.0 / place.z;
-    if (!std::isfinite(nearness)) {
-        return std::nullopt;
-    }
     return Place{place.x * nearness, place.y * nearness, nearness};
 }
 

@@ -7,8 +7,8 @@
 ///          linear along a straight line of the picture on any plane of the world.
 /// Shape    row-major, row 0 at the top.
 /// Colour   8-bit sRGB; the last component is 255 where there is a surface, and 0 where there is none.
-/// Errors   none: an eye on the rectangle's plane or behind it, or numbers that are not finite, make `PictureMap::usable`
-///          false, and then nothing is drawn.
+/// Errors   none: an eye on the rectangle's plane, nearer to it than a millionth of its size, or behind it, and numbers that are
+///          not finite or beyond 1e9 m, make `PictureMap::usable` false, and then nothing is drawn.
 /// Threads  values and pure functions; any.
 #pragma once
 
@@ -23,6 +23,8 @@
 namespace frustumscreen::ldi {
 
 inline constexpr int max_picture_side = 4096; ///< pixels
+/// Nearer to the eye than this share of the rectangle's distance nothing is seen.
+inline constexpr double min_farness = 1e-6;
 
 struct PictureCamera {
     glm::dvec3 eye{0.0, 0.0, 1.0};
@@ -50,9 +52,9 @@ public:
 
     explicit PictureMap(const PictureCamera& camera);
 
-    /// False if the eye is not in front of the rectangle's plane, or the rectangle or picture has no area.
+    /// False if the eye is not before the rectangle's plane, or the rectangle or picture has no area.
     [[nodiscard]] bool usable() const { return usable_; }
-    /// nullopt beside and behind the eye.
+    /// nullopt beside and behind the eye, and nearer than `min_farness`.
     [[nodiscard]] std::optional<Place> project(const glm::dvec3& point) const;
     /// From the eye to the rectangle, where the nearness is 1.
     [[nodiscard]] glm::dvec3 ray(double x, double y) const {

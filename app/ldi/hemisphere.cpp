@@ -133,10 +133,10 @@ Hemisphere::Hemisphere(double radius_m, double cap_rad, const CameraShares& shar
 }
 
 std::optional<std::size_t> Hemisphere::patch_of(const glm::dvec3& eye) const {
-    const double largest = std::max({std::fabs(eye.x), std::fabs(eye.y), std::fabs(eye.z)});
-    if (!std::isfinite(eye.x + eye.y + eye.z) || !(eye.z > 0.0)) {
+    if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z) || !(eye.z > 0.0)) {
         return std::nullopt;
     }
+    const double largest = std::max({std::fabs(eye.x), std::fabs(eye.y), eye.z});
     const glm::dvec3 scaled = eye / largest; // neither overflows nor vanishes when it is squared
     const double length = glm::length(scaled);
     if (scaled.z < cap_cos_ * length) {

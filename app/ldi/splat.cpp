@@ -8,7 +8,6 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-constexpr double min_farness = 1e-6;
 /// What rounding may leave between splats that touch.
 constexpr double overlap_px = 1.0 / 1024.0;
 
@@ -73,10 +72,9 @@ struct Sheet {
 
 /// Toward the epipole if it is the eye's own picture, away from it if the eye is behind the image's camera.
 std::array<Sheet, 2> sheets(double place, double farness, int count) {
-    int split = 0;
-    if (place != 0.0) { // an epipole infinitely far away lies on one side
-        const double epipole = place / farness;
-        split = std::isnan(epipole) ? 0 : first_pixel(epipole, count);
+    int split = (place < 0.0) == std::signbit(farness) ? count : 0; // far to one side, perhaps infinitely far
+    if (std::fabs(place) < (count + 1.0) * std::fabs(farness)) {
+        split = first_pixel(place / farness, count);
     }
     if (std::signbit(farness)) {
         return {{{split - 1, -1, -1}, {split, count, 1}}};

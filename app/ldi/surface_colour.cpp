@@ -15,12 +15,14 @@ std::array<double, 3> shares_at(const std::array<glm::dvec3, 3>& corners, const 
     const glm::dvec3 ac = corners[2] - corners[0];
     const glm::dvec3 across = glm::cross(ray, ac);
     const double determinant = glm::dot(across, ab);
-    if (determinant == 0.0) {
-        return {1.0, 0.0, 0.0};
-    }
     const glm::dvec3 from_corner = eye - corners[0];
-    const double b = std::max(0.0, glm::dot(from_corner, across) / determinant);
-    const double c = std::max(0.0, glm::dot(ray, glm::cross(from_corner, ab)) / determinant);
+    const double to_b = glm::dot(from_corner, across);
+    const double to_c = glm::dot(ray, glm::cross(from_corner, ab));
+    if (determinant == 0.0 || std::fmax(std::fabs(to_b), std::fabs(to_c)) > 1e6 * std::fabs(determinant)) {
+        return {1.0, 0.0, 0.0}; // seen edge on
+    }
+    const double b = std::max(0.0, to_b / determinant);
+    const double c = std::max(0.0, to_c / determinant);
     const double both = std::max(1.0, b + c);
     return {1.0 - (b + c) / both, b / both, c / both};
 }

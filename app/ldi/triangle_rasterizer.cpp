@@ -14,7 +14,6 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 /// With ten bits behind the point 23 bits, so differences of corners are exact in 32 bits.
 constexpr double guard_px = 8191.0;
-constexpr double min_farness = 1e-6;
 constexpr std::uint16_t needs_cutting = 0x8000; ///< a column
 
 /// To 1/1024: the last bit of doubles of this size.
@@ -85,10 +84,11 @@ void TriangleRasterizer::place_corners(const TriangleWorld& world, const Picture
     cells_.resize(world.positions.size());
     for (std::size_t k = 0; k < corners_.size(); ++k) {
         const glm::dvec3 place = map.homogeneous(glm::dvec3(world.positions[k]));
-        const double nearness = 1.0 / place.z;
-        const double x = place.x * nearness;
-        const double y = place.y * nearness;
-        if (place.z >= min_farness && std::fabs(x) < guard_px && std::fabs(y) < guard_px) {
+        const double guard = guard_px * place.z;
+        if (place.z >= min_farness && std::fabs(place.x) < guard && std::fabs(place.y) < guard) {
+            const double nearness = 1.0 / place.z;
+            const double x = place.x * nearness;
+            const double y = place.y * nearness;
             const Corner corner{rounded(x), rounded(y), static_cast<float>(nearness)};
             corners_[k] = corner;
             cells_[k] = {static_cast<std::uint16_t>(first_pixel(corner.x, camera.width)),
