@@ -25,7 +25,7 @@ out vec3 place;
 out vec4 code;
 void main() {
     gl_Position = clip_from_window * vec4(at, 1.0);
-    gl_PointSize = max(1.0, size * pixels_per_m / gl_Position.w);
+    gl_PointSize = size * pixels_per_m / gl_Position.w + 0.5; // a square that is not quite in the raster leaves no gap
     place = at;
     code = colour;
 }
@@ -126,16 +126,13 @@ image::ImageFloat GpuWindow::hit_points(const glm::dvec3& eye_m) {
 
 namespace {
 
-/// Appends a picture's grid. Corners of a triangle belong together if their farness differs no more than a surface's does that is
-/// seen at a slant of some 80 degrees.
+/// Appends a picture's grid.
 void add_grid(const ldi::DepthPicture& picture, std::vector<GpuWindow::Vertex>& vertices,
               std::vector<std::uint32_t>& indices) {
     constexpr std::uint32_t none = 0xFFFFFFFFU;
-    constexpr double steepest = 6.0; // its tangent
     const ldi::PictureCamera& camera = picture.camera;
     const ldi::PictureMap map(camera);
     const double pixel_m = 2.0 * glm::length(camera.half_right) / camera.width;
-    const double plane_m = glm::length(map.ray(0.5 * camera.width, 0.5 * camera.height));
     std::vector<std::uint32_t> number(picture.nearness.size(), none);
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
@@ -150,13 +147,7 @@ void add_grid(const ldi::DepthPicture& picture, std::vector<GpuWindow::Vertex>& 
         }
     }
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-        if (number[a] == none || number[b] == none || number[c] == none) {
-            return;
-        }
-        const float high = std::max({picture.nearness[a], picture.nearness[b], picture.nearness[c]});
-        const float low = std::min({picture.nearness[a], picture.nearness[b], picture.nearness[c]});
-        const double depth_m = plane_m * (1.0 / static_cast<double>(low) - 1.0 / static_cast<double>(high));
-        if (depth_m <= steepest * pixel_m / static_cast<double>(high)) {
+        if (number[a] != none && number[b] != none && number[c] != none) {
             indices.insert(indices.end(), {number[a], number[b], number[c]});
         }
     };

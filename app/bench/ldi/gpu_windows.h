@@ -1,8 +1,8 @@
 /// Pictures with depth that the GPU warps, as an engine does today (window_technique.h).
 ///
-/// Grid     each picture is a grid of triangles with a vertex at each pixel's middle; where depth jumps between neighbours there are
-///          none, so that nothing is stretched over what was hidden.
-/// Points   as large as the pixel's surface is seen, one at least.
+/// Grid     each picture is a grid of triangles with a vertex at each pixel's middle. Where depth jumps between neighbours they are
+///          stretched, so that what was hidden is closed: cut there, more than a third of the town is missing from most eyes.
+/// Points   squares of the picture, as large as the pixel's surface is from straight ahead, and half a pixel more.
 /// Threads  the one of the set.
 /// Errors   the driver has no memory, or refuses a shader.
 #pragma once

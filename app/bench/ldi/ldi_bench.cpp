@@ -65,9 +65,8 @@ private:
     const Truth& truth_;
 };
 
-Result<std::vector<LdiRow>> measure_scene(WindowSet& set, const Truth& truth, const LdiOptions& options,
-                                          const std::function<void(double)>& progress) {
-    TRY(const Techniques techniques, window_techniques(set));
+std::vector<LdiRow> measure_times(WindowSet& set, const Techniques& techniques, const Truth& truth,
+                                  const LdiOptions& options, const std::function<void(double)>& progress) {
     const std::vector<WindowFrame> path = window_path(options.frames, options.seed);
     std::vector<LdiRow> rows;
     for (const std::unique_ptr<WindowTechnique>& technique : techniques) {
@@ -105,9 +104,9 @@ Result<std::vector<LdiRow>> measure_scene(WindowSet& set, const Truth& truth, co
     return rows;
 }
 
-Result<void> measure_patches(WindowSet& set, const Truth& truth, const LdiOptions& options,
-                             std::vector<LdiPatchRow>& rows, const std::function<void(double)>& progress) {
-    TRY(const Techniques techniques, window_techniques(set));
+void measure_patches(WindowSet& set, const Techniques& techniques, const Truth& truth,
+                     const LdiOptions& options, std::vector<LdiPatchRow>& rows,
+                     const std::function<void(double)>& progress) {
     const ldi::Hemisphere hemisphere(frozen_from_m);
     Errors errors(set, truth);
     for (std::size_t patch = 0; patch < ldi::patch_count; ++patch) {
@@ -125,7 +124,18 @@ Result<void> measure_patches(WindowSet& set, const Truth& truth, const LdiOption
         }
         progress(static_cast<double>(patch + 1) / static_cast<double>(ldi::patch_count));
     }
-    return {};
+}
+
+std::vector<LdiPicture> take_pictures(WindowSet& set, const Techniques& techniques,
+                                      const LdiOptions& options) {
+    const glm::dvec3 eye_m = window_path(options.frames, options.seed).front().eyes_m.front();
+    set.draw_alone(eye_m);
+    std::vector<LdiPicture> pictures{{"alone", set.read_alone()}};
+    for (const std::unique_ptr<WindowTechnique>& technique : techniques) {
+        technique->draw(eye_m);
+        pictures.push_back({technique->name(), set.read_colour()});
+    }
+    return pictures;
 }
 
 } // namespace
@@ -173,6 +183,7 @@ Result<Techniques> window_techniques(WindowSet& set) {
 Result<LdiResult> measure_ldi(const settings::Settings& settings, const LdiOptions& options,
                               const LdiProgress& progress) {
     LdiResult result;
+    const std::size_t largest = *std::max_element(options.triangles.begin(), options.triangles.end());
     for (const std::size_t triangles : options.triangles) {
         const auto step = [&](const std::string& what) {
             const std::string name = fmt::format("{} triangles, {}", triangles, what);
@@ -182,18 +193,27 @@ Result<LdiResult> measure_ldi(const settings::Settings& settings, const LdiOptio
         (void)step("the scene");
         const WindowScene scene = make_window_scene(triangles, options.seed);
         TRY(const Truth truth, Truth::build(scene.mesh, scene.window_from_site));
-        {
-            TRY(const std::unique_ptr<WindowSet> set, WindowSet::open(settings, scene, options.pixels));
-            TRY(std::vector<LdiRow> rows, measure_scene(*set, truth, options, step("windows")));
-            std::move(rows.begin(), rows.end(), std::back_inserter(result.rows));
+        std::vector<int> resolutions{options.pixels};
+        if (triangles == largest) {
+            std::copy_if(options.resolutions.begin(), options.resolutions.end(),
+                         std::back_inserter(resolutions),
+                         [&](int pixels) { return pixels != options.pixels; });
         }
-        if (triangles != *std::max_element(options.triangles.begin(), options.triangles.end())) {
-            continue;
-        }
-        for (const int pixels : options.resolutions) {
+        for (const int pixels : resolutions) {
+            (void)step(fmt::format("windows of {} pixels are made", pixels));
             TRY(const std::unique_ptr<WindowSet> set, WindowSet::open(settings, scene, pixels));
-            TRY_VOID(measure_patches(*set, truth, options, result.by_patch,
-                                     step(fmt::format("errors at {} pixels", pixels))));
+            TRY(const Techniques techniques, window_techniques(*set));
+            if (pixels == options.pixels) {
+                std::vector<LdiRow> rows = measure_times(*set, techniques, truth, options, step("times"));
+                std::move(rows.begin(), rows.end(), std::back_inserter(result.rows));
+            }
+            if (triangles == largest && pixels == options.pixels) {
+                result.pictures = take_pictures(*set, techniques, options);
+            }
+            if (triangles == largest && !options.resolutions.empty()) {
+                measure_patches(*set, techniques, truth, options, result.by_patch,
+                                step(fmt::format("errors at {} pixels", pixels)));
+            }
         }
     }
     return result;

@@ -89,19 +89,26 @@ template <typename Values> std::uint64_t sum_of_bytes(const Values& values) {
     return sum;
 }
 
-/// A patch's depth pixels, each as a point with the size of its pixel.
+/// A patch's depth pixels, each as a point as large as its part of the surface: along the rays it has the slope of the pixel, up to
+/// four pixels.
 std::vector<GpuWindow::Vertex> points_of(const ldi::LayeredDepth& layers) {
+    constexpr double max_pixels = 4.0;
     const ldi::PictureMap map(layers.camera);
     const double pixel_m = 2.0 * glm::length(layers.camera.half_right) / std::max(layers.camera.width, 1);
+    const double plane_m = glm::distance(layers.camera.eye, layers.camera.middle);
     std::vector<GpuWindow::Vertex> points;
     points.reserve(layers.pixels.size());
     for (int y = 0; y < layers.camera.height; ++y) {
         for (int x = 0; x < layers.camera.width; ++x) {
             for (const ldi::DepthPixel& pixel : layers.at(x, y)) {
                 const auto nearness = static_cast<double>(pixel.nearness);
+                const double across_m = pixel_m / nearness;
+                const double along_m =
+                    plane_m * static_cast<double>(glm::length(pixel.slope)) / (nearness * nearness);
                 points.push_back({.at_m = glm::vec3(map.point(x + 0.5, y + 0.5, nearness)),
                                   .colour = pixel.colour,
-                                  .size_m = static_cast<float>(pixel_m / nearness)});
+                                  .size_m = static_cast<float>(
+                                      std::min(std::hypot(across_m, along_m), max_pixels * across_m))});
             }
         }
     }

@@ -17,25 +17,6 @@ struct Arguments {
     bool is_long = false;
 };
 
-/// What an eye sees through a window of the largest scene, in each way, and the scene alone.
-Result<void> write_pictures(const settings::Settings& settings, const bench::LdiOptions& options,
-                            const std::filesystem::path& folder) {
-    constexpr int pixels = 512;
-    TRY(const std::unique_ptr<bench::WindowSet> set,
-        bench::WindowSet::open(settings, bench::make_window_scene(options.triangles.back(), options.seed),
-                               pixels));
-    TRY(const auto techniques, bench::window_techniques(*set));
-    const glm::dvec3 eye_m = bench::window_path(4, options.seed).front().eyes_m.front();
-    set->draw_alone(eye_m);
-    TRY_VOID(write_file(folder / "ldi_alone.png", image::encode_png(set->read_alone())));
-    for (const auto& technique : techniques) {
-        technique->draw(eye_m);
-        TRY_VOID(write_file(folder / ("ldi_" + technique->name() + ".png"),
-                            image::encode_png(set->read_colour())));
-    }
-    return {};
-}
-
 Result<void> run(Arguments arguments, BenchProgress& progress) {
     if (arguments.triangles > 0) {
         arguments.options.triangles = {arguments.triangles};
@@ -54,7 +35,9 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
     fmt::print("{}{}", bench::ldi_table(result), bench::ldi_verdicts(result));
     TRY_VOID(write_all(arguments.out, {{"ldi.csv", bench::ldi_csv(result)},
                                        {"ldi_error.csv", bench::ldi_error_csv(result)}}));
-    TRY_VOID(write_pictures(*settings, arguments.options, arguments.out));
+    for (const bench::LdiPicture& each : result.pictures) {
+        TRY_VOID(write_file(arguments.out / ("ldi_" + each.name + ".png"), image::encode_png(each.picture)));
+    }
     return draw_all(arguments.out, {"ldi.csv", "ldi_error.csv"});
 }
 
