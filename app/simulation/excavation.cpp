@@ -222,7 +222,8 @@ private:
                 {at, floor_under(at) - 0.05}, size,
                 [size](double v) {
                     const double belly = std::sin(std::numbers::pi * std::clamp(0.12 + 0.86 * v, 0.0, 1.0));
-                    return size * (0.06 + 0.32 * belly + (v > 0.93 ? 0.06 : 0.0));
+                    return v >= 1.0 ? 0.0
+                                    : size * (0.06 + 0.32 * belly + (v > 0.93 ? 0.06 : 0.0)); // it is closed
                 },
                 {.material = SiteMaterial::Clay, .mottle = 0.15}, 10, 6);
         }

@@ -248,10 +248,11 @@ private:
         const glm::dvec3 wide = along_x + 2.0 * over * x;
         roof_half(ridge - longer * slope - over * x, wide, longer * slope, roof);
         roof_half(ridge - longer * slope_back + (size.x + over) * x, -wide, longer * slope_back, roof);
-        // The undersides: together with the tiles they enclose the roof.
-        builder_.quad(ridge - longer * slope + (size.x + over) * x, -wide, longer * slope,
+        // The undersides enclose the roof, a little below the tiles: both have the corners' triangles.
+        const glm::dvec3 under = ridge - 0.03 * up;
+        builder_.quad(under - longer * slope + (size.x + over) * x, -wide, longer * slope,
                       {.material = SiteMaterial::Wood});
-        builder_.quad(ridge - longer * slope_back - over * x, wide, longer * slope_back,
+        builder_.quad(under - longer * slope_back - over * x, wide, longer * slope_back,
                       {.material = SiteMaterial::Wood});
         builder_.box(glm::dvec3(ridge + 0.25 * along_x + 0.18 * along_y - 0.3 * rise * up),
                      {0.8, 0.8, 1.5 + 0.3 * rise}, yaw, {.material = SiteMaterial::Stone});
