@@ -8,7 +8,9 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-constexpr int coarse_px = 16;
+/// Of its distance from the window an eye between the cameras is at most this far from one: the tangent of 14.1 degrees
+/// (hemisphere.h).
+constexpr double between_cameras = 0.25;
 
 /// The least of three neighbours, `step` apart, for `count` values from `first` on.
 void least_of_three(float* first, std::size_t count, std::size_t step) {
@@ -22,37 +24,73 @@ void least_of_three(float* first, std::size_t count, std::size_t step) {
     }
 }
 
+void least_around(std::vector<float>& values, std::size_t width, std::size_t height) {
+    for (std::size_t y = 0; y < height; ++y) {
+        least_of_three(&values[y * width], width, 1);
+    }
+    for (std::size_t x = 0; x < width; ++x) {
+        least_of_three(&values[x], height, width);
+    }
+}
+
 } // namespace
 
 CameraView::CameraView(const DepthPicture& picture)
     : camera_(picture.camera), map_(picture.camera),
       per_metre_(1.0 / glm::dot(glm::normalize(glm::cross(picture.camera.half_right, picture.camera.half_up)),
                                 picture.camera.eye - picture.camera.middle)),
-      nearness_(picture.nearness), coarse_columns_((picture.camera.width + coarse_px - 1) / coarse_px),
-      coarse_rows_((picture.camera.height + coarse_px - 1) / coarse_px),
-      coarse_(static_cast<std::size_t>(coarse_columns_) * static_cast<std::size_t>(coarse_rows_),
-              std::numeric_limits<float>::infinity()) {
+      nearness_(picture.nearness),
+      shift_px_(between_cameras * glm::length(picture.camera.eye - picture.camera.middle) *
+                picture.camera.width / (2.0 * glm::length(picture.camera.half_right))) {
     const auto width = static_cast<std::size_t>(camera_.width);
     const auto height = static_cast<std::size_t>(camera_.height);
-    for (std::size_t y = 0; y < height; ++y) {
-        least_of_three(&nearness_[y * width], width, 1);
+    least_around(nearness_, width, height);
+    for (std::size_t k = 0; k < levels_.size(); ++k) {
+        Level& level = levels_[k];
+        const std::size_t square = std::size_t{2} << k;
+        const std::size_t columns = (width + square - 1) / square;
+        const std::size_t rows = (height + square - 1) / square;
+        level.columns = static_cast<int>(columns);
+        level.rows = static_cast<int>(rows);
+        level.nearness.assign(columns * rows, std::numeric_limits<float>::infinity());
+        for (std::size_t y = 0; y < height; ++y) {
+            for (std::size_t x = 0; x < width; ++x) {
+                float& least = level.nearness[y / square * columns + x / square];
+                least = std::min(least, nearness_[y * width + x]);
+            }
+        }
+        least_around(level.nearness, columns, rows);
     }
-    for (std::size_t x = 0; x < width; ++x) {
-        least_of_three(&nearness_[x], height, width);
-    }
-    const auto columns = static_cast<std::size_t>(coarse_columns_);
-    for (std::size_t y = 0; y < height; ++y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            float& coarse = coarse_[y / coarse_px * columns + x / coarse_px];
-            coarse = std::min(coarse, nearness_[y * width + x]);
+}
+
+float CameraView::farthest(int x, int y, double around_px) const {
+    for (std::size_t k = 0; k < levels_.size(); ++k) {
+        if (around_px <= static_cast<double>(2U << k) || k + 1 == levels_.size()) {
+            const int square = 2 << k;
+            return levels_[k]
+                .nearness[static_cast<std::size_t>(y / square * levels_[k].columns + x / square)];
         }
     }
-    for (std::size_t y = 0; y < static_cast<std::size_t>(coarse_rows_); ++y) {
-        least_of_three(&coarse_[y * columns], columns, 1);
+    return 0.0F;
+}
+
+CameraView::Sight CameraView::sight(const glm::dvec3& point, double tolerance_m) const {
+    const glm::dvec3 place = map_.homogeneous(point);
+    if (!(place.z > 0.0) || !(place.x >= 0.0) || !(place.y >= 0.0) || !(place.x < camera_.width * place.z) ||
+        !(place.y < camera_.height * place.z)) {
+        return Sight::Beside;
     }
-    for (std::size_t x = 0; x < columns; ++x) {
-        least_of_three(&coarse_[x], static_cast<std::size_t>(coarse_rows_), columns);
+    const double per_farness = 1.0 / place.z;
+    const int x = std::min(static_cast<int>(place.x * per_farness), camera_.width - 1);
+    const int y = std::min(static_cast<int>(place.y * per_farness), camera_.height - 1);
+    const float nearest = nearness_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) +
+                                    static_cast<std::size_t>(x)];
+    const double farness = place.z - tolerance_m * per_metre_;
+    if (static_cast<double>(nearest) * farness <= 1.0) {
+        return Sight::Seen;
     }
+    const double beside_px = shift_px_ * (static_cast<double>(nearest) - per_farness);
+    return static_cast<double>(farthest(x, y, beside_px)) * farness <= 1.0 ? Sight::Seen : Sight::Hidden;
 }
 
 CameraView::Sight CameraView::sight_between(const glm::dvec3& from, const glm::dvec3& to,
@@ -71,31 +109,21 @@ CameraView::Sight CameraView::sight_between(const glm::dvec3& from, const glm::d
         return Sight::Beside;
     }
     const glm::dvec2 middle = 0.5 * (at + end);
-    if (high.x - low.x > 2 * coarse_px || high.y - low.y > 2 * coarse_px || !(middle.x >= 0.0) ||
-        !(middle.y >= 0.0) || !(middle.x < camera_.width) || !(middle.y < camera_.height)) {
+    if (!(middle.x >= 0.0) || !(middle.y >= 0.0) || !(middle.x < camera_.width) ||
+        !(middle.y < camera_.height)) {
         return Sight::Seen;
     }
-    const float nearest = coarse_[static_cast<std::size_t>(static_cast<int>(middle.y) / coarse_px) *
-                                      static_cast<std::size_t>(coarse_columns_) +
-                                  static_cast<std::size_t>(static_cast<int>(middle.x) / coarse_px)];
-    return static_cast<double>(nearest) * (std::min(a.z, b.z) - tolerance_m * per_metre_) <= 1.0
-               ? Sight::Seen
-               : Sight::Hidden;
-}
-
-CameraView::Sight CameraView::sight(const glm::dvec3& point, double tolerance_m) const {
-    const glm::dvec3 place = map_.homogeneous(point);
-    if (!(place.z > 0.0) || !(place.x >= 0.0) || !(place.y >= 0.0) || !(place.x < camera_.width * place.z) ||
-        !(place.y < camera_.height * place.z)) {
-        return Sight::Beside;
-    }
-    const double per_farness = 1.0 / place.z;
-    const int x = std::min(static_cast<int>(place.x * per_farness), camera_.width - 1);
-    const int y = std::min(static_cast<int>(place.y * per_farness), camera_.height - 1);
+    const auto x = static_cast<int>(middle.x);
+    const auto y = static_cast<int>(middle.y);
     const float nearest = nearness_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) +
                                     static_cast<std::size_t>(x)];
-    const double nearness = static_cast<double>(nearest) * (place.z - tolerance_m * per_metre_);
-    return nearness <= 1.0 ? Sight::Seen : Sight::Hidden;
+    const double beside_px =
+        0.5 * std::max(high.x - low.x, high.y - low.y) +
+        shift_px_ * std::max(0.0, static_cast<double>(nearest) - 1.0 / std::max(a.z, b.z));
+    return static_cast<double>(farthest(x, y, beside_px)) * (std::min(a.z, b.z) - tolerance_m * per_metre_) <=
+                   1.0
+               ? Sight::Seen
+               : Sight::Hidden;
 }
 
 CameraViews::CameraViews(const TriangleWorld& world, const Hemisphere& hemisphere,

@@ -22,23 +22,34 @@ namespace frustumscreen::ldi {
 /// One camera's depths.
 class CameraView {
 public:
-    /// Keeps of each pixel the farthest surface in the 3 x 3 around it: what lies a pixel beside a nearer surface counts as seen.
+    /// Keeps of each pixel the farthest surface in the 3 x 3 around it, and of squares of 2 to 64 pixels that of them and those
+    /// around them.
     explicit CameraView(const DepthPicture& picture);
 
     enum class Sight { Seen, Hidden, Beside };
     /// Beside: outside of the picture, or behind the camera. `tolerance_m`: farther than the surface, along the window's normal.
+    /// A hidden place counts as seen too if an eye between the cameras may see past what hides it: if as far beside it as the
+    /// two move against each other in the picture, something as far as the place is seen.
     [[nodiscard]] Sight sight(const glm::dvec3& point, double tolerance_m) const;
     /// Of everything between two places at most some ten pixels apart, and around: Hidden if none of it is seen.
     [[nodiscard]] Sight sight_between(const glm::dvec3& from, const glm::dvec3& to, double tolerance_m) const;
-    [[nodiscard]] std::uint64_t bytes() const { return (nearness_.size() + coarse_.size()) * sizeof(float); }
+    [[nodiscard]] std::uint64_t bytes() const { return 4 * nearness_.size() * sizeof(float) / 3; }
 
 private:
     PictureCamera camera_;
     PictureMap map_;
     double per_metre_; ///< farness
     std::vector<float> nearness_;
-    int coarse_columns_, coarse_rows_;
-    std::vector<float> coarse_; ///< of 16 x 16 pixels and those around them
+    double shift_px_; ///< of an eye between cameras, for a nearness of 1
+    /// Of squares of 2^k pixels, k from 1.
+    struct Level {
+        int columns = 0, rows = 0;
+        std::vector<float> nearness;
+    };
+    std::array<Level, 6> levels_;
+
+    /// The farthest surface within `around_px` of a pixel, or farther.
+    [[nodiscard]] float farthest(int x, int y, double around_px) const;
 };
 
 class CameraViews {
