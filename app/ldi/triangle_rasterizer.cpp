@@ -34,7 +34,12 @@ struct Polygon {
     std::size_t count = 0;
 };
 
-/// The part where the product with `plane` is at least `least`.
+/// Where the line is cut whose ends have these signed distances from a plane.
+glm::dvec3 between(const glm::dvec3& inside, const glm::dvec3& outside, double inside_by, double outside_by) {
+    return inside + inside_by / (inside_by - outside_by) * (outside - inside);
+}
+
+/// The part where the product with `plane` is at least `least`. Two triangles' common edge is cut in the same places.
 Polygon cut(const Polygon& polygon, const glm::dvec3& plane, double least) {
     Polygon kept;
     for (std::size_t k = 0; k < polygon.count; ++k) {
@@ -45,8 +50,10 @@ Polygon cut(const Polygon& polygon, const glm::dvec3& plane, double least) {
         if (from_side >= 0.0) {
             kept.places[kept.count++] = from;
         }
-        if ((from_side < 0.0) != (to_side < 0.0)) {
-            kept.places[kept.count++] = from + from_side / (from_side - to_side) * (to - from);
+        if (from_side >= 0.0 && to_side < 0.0) {
+            kept.places[kept.count++] = between(from, to, from_side, to_side);
+        } else if (from_side < 0.0 && to_side >= 0.0) { // as for the triangle on the edge's other side
+            kept.places[kept.count++] = between(to, from, to_side, from_side);
         }
     }
     return kept;

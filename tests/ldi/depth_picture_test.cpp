@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -147,6 +148,119 @@ TEST(DepthPicture, EqualsARayCastOfEveryTriangleInHitDepthAndColour) {
     EXPECT_GT(hits, 15'000U);
     EXPECT_GT(empty, 500U);
     EXPECT_LT(doubts, 8'000U);
+}
+
+TEST(DepthPicture, TrianglesWithACommonEdgeLeaveNoGapAndCoverNoPixelTwice) {
+    // Rows of pixels' middles lie on edges; the larger sheets' triangles are cut.
+    TriangleRasterizer rasterizer;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> u(-0.3F, 0.3F);
+    std::size_t pictures = 0;
+    for (const float half_m : {0.4F, 5.0F, 1e4F}) {
+        for (const float jitter : {0.0F, 1.0F}) {
+            constexpr std::uint32_t cells = 16;
+            TriangleWorld sheet;
+            for (std::uint32_t k = 0; k < (cells + 1) * (cells + 1); ++k) {
+                const glm::vec2 cell(k % (cells + 1), k / (cells + 1));
+                const bool border = k % (cells + 1) % cells == 0 || k / (cells + 1) % cells == 0;
+                const glm::vec2 moved = border ? cell : cell + jitter * glm::vec2(u(random), u(random));
+                sheet.positions.emplace_back(half_m * (moved * (2.0F / cells) - 1.0F), -0.02F);
+            }
+            for (std::uint32_t k = 0; k < cells * (cells + 1); ++k) {
+                if (k % (cells + 1) < cells) {
+                    const std::uint32_t below = k + cells + 1;
+                    sheet.indices.insert(sheet.indices.end(), {k, k + 1, below + 1, k, below + 1, below});
+                }
+            }
+            for (const glm::dvec3& eye :
+                 {glm::dvec3(0.0, 0.0, 0.5), glm::dvec3(0.1, -0.2, 0.3), glm::dvec3(0.0, 0.0, 0.01)}) {
+                DepthPicture all;
+                all.begin(camera_through_window(eye, {0.1, 0.1}, 64, 64));
+                rasterizer.draw(sheet, all);
+                std::vector<int> times(all.nearness.size(), 0);
+                for (std::size_t triangle = 0; triangle < sheet.triangle_count(); ++triangle) {
+                    TriangleWorld one;
+                    one.positions = sheet.positions;
+                    one.indices.assign(&sheet.indices[3 * triangle], &sheet.indices[3 * triangle] + 3);
+                    DepthPicture picture;
+                    picture.begin(all.camera);
+                    rasterizer.draw(one, picture);
+                    for (std::size_t pixel = 0; pixel < times.size(); ++pixel) {
+                        times[pixel] += picture.nearness[pixel] > 0.0F ? 1 : 0;
+                    }
+                }
+                EXPECT_EQ(std::count(times.begin(), times.end(), 1), 64 * 64)
+                    << half_m << ", " << jitter << ", " << eye.x;
+                EXPECT_EQ(std::count(all.nearness.begin(), all.nearness.end(), 0.0F), 0);
+                ++pictures;
+            }
+        }
+    }
+    EXPECT_EQ(pictures, 18U);
+}
+
+TEST(DepthPicture, ATriangleThroughTheEyesPlaneIsSeenAsARayCastSeesIt) {
+    TriangleRasterizer rasterizer;
+    DepthPicture picture;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> u(-1.0F, 1.0F);
+    std::size_t hits = 0;
+    for (int k = 0; k < 40; ++k) {
+        TriangleWorld world; // corners on both sides of the eye's plane, one far away
+        for (const float z : {3.0F, -2.0F, -50.0F}) {
+            world.indices.push_back(static_cast<std::uint32_t>(world.positions.size()));
+            world.positions.emplace_back(2.0F * u(random), 2.0F * u(random), z);
+            world.colours.emplace_back(
+                glm::vec3(127.0F) + 127.0F * glm::vec3(u(random), u(random), u(random)), 255);
+        }
+        picture.begin(camera_through_window({0.05, 0.02, 0.5}, {0.2, 0.2}, 48, 48));
+        rasterizer.draw(world, picture);
+        const PictureMap map(picture.camera);
+        for (int y = 0; y < 48; ++y) {
+            for (int x = 0; x < 48; ++x) {
+                bool doubtful = false;
+                const Hit hit = cast(world, map, x + 0.5, y + 0.5, doubtful);
+                const float nearness = picture.nearness[picture.at(x, y)];
+                if (!doubtful) {
+                    ASSERT_EQ(nearness > 0.0F, std::isfinite(hit.way)) << k << ": " << x << ", " << y;
+                    hits += nearness > 0.0F ? 1 : 0;
+                }
+            }
+        }
+    }
+    EXPECT_GT(hits, 500U);
+}
+
+TEST(DepthPicture, HolesOfACutOutShowWhatIsBehind) {
+    TriangleWorld world; // a square of two halves, of which the upper texel is a hole
+    world.positions = {{-0.1F, -0.1F, 0.0F}, {0.1F, -0.1F, 0.0F}, {0.1F, 0.1F, 0.0F}, {-0.1F, 0.1F, 0.0F}};
+    world.texture_places = {{0.0F, 0.75F}, {1.0F, 0.75F}, {1.0F, 0.25F}, {0.0F, 0.25F}};
+    world.indices = {0, 1, 2, 0, 2, 3};
+    image::Image8 texture(1, 2, {10, 20, 30, 255});
+    texture.at(0, 0).a = 0;
+    world.texture = std::make_shared<const image::Image8>(texture);
+    for (const bool cut_out : {false, true}) {
+        world.cut_out = cut_out;
+        DepthPicture picture;
+        picture.begin(camera_through_window({0.0, 0.0, 0.4}, {0.1, 0.1}, 16, 16));
+        TriangleRasterizer().draw(world, picture);
+        for (int y = 0; y < 16; ++y) { // coverage is one half in the middle
+            EXPECT_EQ(picture.colours[picture.at(5, y)],
+                      cut_out && y < 8 ? glm::u8vec4(0) : glm::u8vec4(10, 20, 30, 255));
+        }
+    }
+}
+
+TEST(DepthPicture, IndicesBeyondThePositionsAndCornersThatAreNotFiniteAreNotDrawn) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    TriangleWorld world;
+    world.positions = {{-0.1F, -0.1F, 0.0F}, {0.1F, -0.1F, 0.0F}, {0.1F, nan, 0.0F}, {infinity, 0.1F, 0.0F}};
+    world.indices = {0, 1, 2, 0, 1, 3, 0, 1, 4, 0xFFFFFFFFU, 1, 0, 0, 1};
+    DepthPicture picture;
+    picture.begin(camera_through_window({0.0, 0.0, 0.4}, {0.1, 0.1}, 16, 16));
+    TriangleRasterizer().draw(world, picture);
+    EXPECT_EQ(std::count(picture.nearness.begin(), picture.nearness.end(), 0.0F), 16 * 16);
 }
 
 } // namespace

@@ -10,6 +10,7 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> eye_cases();
 [[nodiscard]] std::vector<StabilityCase> two_eyes_cases();
 [[nodiscard]] std::vector<StabilityCase> room_cases();
+[[nodiscard]] std::vector<StabilityCase> window_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_plan_cases();
 [[nodiscard]] std::vector<StabilityCase> prop_cases();
