@@ -170,7 +170,9 @@ Result<Techniques> window_techniques(WindowSet& set) {
     techniques.push_back(make_window_geometry(set));
     TRY(techniques.emplace_back(), make_window_lod(set));
     techniques.push_back(make_window_relief(set));
-    techniques.push_back(make_window_ours(set));
+    for (const int pixels_per_texel : {1, 2, 4}) {
+        techniques.push_back(make_window_ours(set, pixels_per_texel));
+    }
     techniques.push_back(make_multi_ldi(set));
     techniques.push_back(make_single_ldi(set));
     techniques.push_back(make_image_based_object(set));

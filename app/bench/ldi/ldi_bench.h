@@ -23,10 +23,10 @@ namespace frustumscreen::bench {
 struct LdiOptions {
     std::vector<std::size_t> triangles{126'790, 264'247, 630'799}; ///< the report's
     int pixels = 256;                                              ///< along a window's side; the report's
-    int frames = 24;
+    int frames = 16;
     int passes = 3;
-    int errors = 8; ///< frames that are measured, each through one of the windows
-    std::vector<int> resolutions{128, 256, 512}; ///< of the errors by patch, in the largest scene
+    int errors = 8;                         ///< frames that are measured, each through one of the windows
+    std::vector<int> resolutions{128, 256}; ///< of the errors by patch, in the largest scene
     int eyes_in_patch = 1;
     std::uint64_t seed = 1;
 };

@@ -5,6 +5,8 @@
 #include "app/ldi/patch_maker.h"
 #include "assets_baked/bake/block_relief.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -54,10 +56,12 @@ std::optional<LevelOfDetail> coarsest_within(const bake::SourceMesh& mesh, doubl
 /// One plan and one part for each patch of the hemisphere.
 class Ours final : public WindowTechnique {
 public:
-    explicit Ours(WindowSet& set) : set_(set) {
+    Ours(WindowSet& set, int pixels_per_texel)
+        : set_(set), name_(pixels_per_texel == 1 ? "ours" : fmt::format("ours_{}px", pixels_per_texel)) {
         const double begun_ms = cpu_now_ms();
-        ldi::PatchMaker maker(set.scene().world, ldi::Hemisphere(frozen_from_m),
-                              {.half_extent_m = glm::dvec2(0.5 * window_side_m), .texel_m = set.pixel_m()});
+        ldi::PatchMaker maker(
+            set.scene().world, ldi::Hemisphere(frozen_from_m),
+            {.half_extent_m = glm::dvec2(0.5 * window_side_m), .texel_m = pixels_per_texel * set.pixel_m()});
         while (maker.step()) {
         }
         hemisphere_ = maker.hemisphere();
@@ -77,7 +81,7 @@ public:
         }
         make_ms_ = cpu_now_ms() - begun_ms;
     }
-    [[nodiscard]] std::string name() const override { return "ours"; }
+    [[nodiscard]] std::string name() const override { return name_; }
     void draw(const glm::dvec3& eye_m) override {
         Patch& patch = patch_for(eye_m);
         set_.draw({&patch.part, 1}, eye_m, patch.plan);
@@ -97,6 +101,7 @@ private:
     Patch& patch_for(const glm::dvec3& eye_m) { return patches_[nearest_patch(hemisphere_, eye_m)]; }
 
     WindowSet& set_;
+    std::string name_;
     ldi::Hemisphere hemisphere_{frozen_from_m};
     std::vector<Patch> patches_;
     std::uint64_t bytes_ = 0;
@@ -145,8 +150,8 @@ std::unique_ptr<WindowTechnique> make_window_relief(WindowSet& set) {
     return std::make_unique<Planned>(set, "relief_pack", placed, bytes_of(*relief), cpu_now_ms() - begun_ms);
 }
 
-std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set) {
-    return std::make_unique<Ours>(set);
+std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set, int pixels_per_texel) {
+    return std::make_unique<Ours>(set, pixels_per_texel);
 }
 
 } // namespace frustumscreen::bench

@@ -4,6 +4,7 @@
 /// geometry_lod     the same with the coarsest of meshoptimizer's levels that errs by less than half a window pixel.
 /// relief_pack      the exhibit's own relief, as the bake makes it, in the directions of a frustum's faces.
 /// ours             a patch of the hemisphere as a block relief (app/ldi/patch_relief.h), drawn as the exhibit draws a relief.
+/// ours_2px, ...    the same with texels of so many pixels.
 /// multi_ldi_paper  the report's: a layered depth image for each patch, splatted in McMillan's order.
 /// single_ldi       all 29 cameras in one layered depth image.
 /// ibo              an image-based object: layered depth images for the sides of a cube, up to three of which are splatted.
