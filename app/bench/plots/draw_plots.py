@@ -15,6 +15,7 @@ import textwrap
 from contextlib import contextmanager
 from pathlib import Path
 
+import ldi_plots
 import room_plots
 import torch_plots
 from panels import Failure, Panel, Series, save_column, save_sheet
@@ -336,6 +337,7 @@ TABLES = {"error_time": draw_error_time, "two_pass_": draw_two_pass, "scaling_":
           "guidance": draw_guidance, "ladder": draw_ladder, "mixed": draw_mixed, "mixed_frames": draw_mixed_frames,
           "room": of_rows(room_plots.draw_room), "room_frames": of_rows(room_plots.draw_room_frames),
           "room_paper": of_rows(room_plots.draw_room_paper), "torch": of_rows(torch_plots.draw_torch),
+          "ldi": of_rows(ldi_plots.draw_ldi), "ldi_error": of_rows(ldi_plots.draw_ldi_error),
           "torch_frames": of_rows(torch_plots.draw_torch_frames), "torch_wall": of_rows(torch_plots.draw_torch_wall),
           "torch_triangles": of_rows(torch_plots.draw_torch_triangles)}
 

@@ -142,6 +142,8 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand room_command(CommandLine& app);
 /// A torch's light: ours against the paper's.
 [[nodiscard]] BenchCommand torch_command(CommandLine& app);
+/// Frozen windows: ours against the multi-LDI report's and peers.
+[[nodiscard]] BenchCommand ldi_command(CommandLine& app);
 /// A pack's cells at rest against the whole.
 [[nodiscard]] BenchCommand cells_command(CommandLine& app);
 /// The benefit of advice for visitors.

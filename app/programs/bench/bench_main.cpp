@@ -17,12 +17,13 @@ int run(int argc, char** argv) {
                     "frustumscreen-bench");
     app.set_version_flag("--version", name_and_version("frustumscreen-bench"));
     app.require_subcommand();
-    const std::array commands = {
-        error_time_command(app), scaling_command(app),  projection_command(app), shimmer_command(app),
-        stability_command(app),  plot_command(app),     counts_command(app),     latency_command(app),
-        setup_command(app),      guidance_command(app), ladder_command(app),     estimate_command(app),
-        tags_command(app),       visitor_command(app),  stereo_command(app),     mixed_command(app),
-        room_command(app),       cells_command(app),    report_command(app),     torch_command(app)};
+    const std::array commands = {error_time_command(app), scaling_command(app),   projection_command(app),
+                                 shimmer_command(app),    stability_command(app), plot_command(app),
+                                 counts_command(app),     latency_command(app),   setup_command(app),
+                                 guidance_command(app),   ladder_command(app),    estimate_command(app),
+                                 tags_command(app),       visitor_command(app),   stereo_command(app),
+                                 mixed_command(app),      room_command(app),      cells_command(app),
+                                 report_command(app),     torch_command(app),     ldi_command(app)};
     if (const auto end = app.end_of_arguments(argc, argv)) {
         return *end;
     }

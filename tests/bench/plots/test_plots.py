@@ -408,6 +408,30 @@ class Torch(Plots):
         self.assertIn("bound of the error 4 %: 1 triangles", words)
 
 
+class Ldi(Plots):
+    def test_windows_are_told_in_frames_of_the_scene_alone(self):
+        table = self.folder / "ldi.csv"
+        write_table(table, ({"triangles": triangles, "windows": windows, "technique": technique,
+                             "ms_p50": 10 + windows * ms, "ms_p99": 99, "silhouette_pct": 0.5 if windows else 0,
+                             "error_mm_mean": 0.1 if windows else 0, "rmse": 3, "mb": 1, "make_ms": 1}
+                            for triangles in (1000, 630799) for technique, ms in (("geometry", 20), ("ours", 2))
+                            for windows in range(5)))
+        main([str(table)])
+        svg = Svg(table.with_suffix(".svg"))
+        self.assert_at(svg, 0, "ours", [(windows, 1 + 0.2 * windows) for windows in range(5)], log=False)
+        self.assert_at(svg, 1, "ours", [(1000, 10), (630799, 10)])
+        self.assert_at(svg, 2, "ours", [(2, 0.5)])
+        self.assert_at(svg, 3, "geometry", [(20, 0.1)])
+
+    def test_errors_are_means_of_the_patches(self):
+        table = self.folder / "ldi_error.csv"
+        write_table(table, ({"triangles": 9, "technique": "ours", "pixels": pixels, "patch": patch, "pictures": 1,
+                             "silhouette_pct": 128 / pixels * (1 + 2 * patch), "error_mm_mean": 1, "rmse": 2}
+                            for pixels in (128, 256) for patch in (0, 1)))
+        main([str(table)])
+        self.assert_at(Svg(table.with_suffix(".svg")), 0, "ours", [(128, 2.0), (256, 1.0)])
+
+
 class WhatIsBroken(Plots):
     def assert_said(self, arguments, words):
         with self.assertRaisesRegex(Failure, words) as caught:
