@@ -13,7 +13,7 @@ namespace {
 constexpr double between_cameras = 0.25;
 
 /// The least of three neighbours, `step` apart, for `count` values from `first` on.
-void least_of_three(float* first, std::size_t count, std::size_t step) {
+void min_of_three(float* first, std::size_t count, std::size_t step) {
     float before = first[0];
     for (std::size_t k = 0; k < count; ++k) {
         float* const here = first + k * step;
@@ -24,12 +24,12 @@ void least_of_three(float* first, std::size_t count, std::size_t step) {
     }
 }
 
-void least_around(std::vector<float>& values, std::size_t width, std::size_t height) {
+void min_around(std::vector<float>& values, std::size_t width, std::size_t height) {
     for (std::size_t y = 0; y < height; ++y) {
-        least_of_three(&values[y * width], width, 1);
+        min_of_three(&values[y * width], width, 1);
     }
     for (std::size_t x = 0; x < width; ++x) {
-        least_of_three(&values[x], height, width);
+        min_of_three(&values[x], height, width);
     }
 }
 
@@ -44,7 +44,7 @@ CameraDepths::CameraDepths(const DepthPicture& picture)
                 picture.camera.width / (2.0 * glm::length(picture.camera.half_right))) {
     const auto width = static_cast<std::size_t>(camera_.width);
     const auto height = static_cast<std::size_t>(camera_.height);
-    least_around(nearness_, width, height);
+    min_around(nearness_, width, height);
     for (std::size_t k = 0; k < levels_.size(); ++k) {
         Level& level = levels_[k];
         const std::size_t square = std::size_t{2} << k;
@@ -59,7 +59,7 @@ CameraDepths::CameraDepths(const DepthPicture& picture)
                 least = std::min(least, nearness_[y * width + x]);
             }
         }
-        least_around(level.nearness, columns, rows);
+        min_around(level.nearness, columns, rows);
     }
 }
 
