@@ -22,6 +22,18 @@
 
 namespace frustumscreen::ldi {
 
+[[nodiscard]] inline glm::dvec3 applied(const glm::dmat4& affine, const glm::dvec3& point) {
+    return glm::dvec3(affine[0]) * point.x + glm::dvec3(affine[1]) * point.y +
+           glm::dvec3(affine[2]) * point.z + glm::dvec3(affine[3]);
+}
+
+/// Whole numbers within two bounds, and within 0 and `max`; the first one is larger if there are none.
+[[nodiscard]] inline std::pair<int, int> whole(double low, double high, int max) {
+    const double first = std::max(0.0, std::ceil(low));
+    const double last = std::min(static_cast<double>(max), std::floor(high));
+    return first <= last ? std::pair(static_cast<int>(first), static_cast<int>(last)) : std::pair(1, 0);
+}
+
 class GridTriangle {
 public:
     /// nullopt if it has no area across the lines.

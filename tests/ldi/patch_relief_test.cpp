@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -211,6 +212,40 @@ TEST(PatchRelief, ChangesHardlyWhereAnEyeCrossesFromPatchToPatch) {
                 << "along the ring, place " << k;
         }
     }
+}
+
+TEST(PatchRelief, HasTheHolesAndColoursOfACutOutTexture) {
+    // A wall whose left half is a hole, 2 m wide: its texels are of 0.5 m, so the hole ends at x = 0 to a texel's middle.
+    auto texture = std::make_shared<image::Image8>(4, 1);
+    texture->texels = {{0, 0, 0, 0}, {90, 160, 230, 0}, {90, 160, 230, 255}, {90, 160, 230, 255}};
+    TriangleWorld world;
+    for (const glm::vec2& side : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
+        world.positions.emplace_back(side, -0.05F);
+        world.texture_places.emplace_back(0.5F + 0.5F * side.x, 0.5F);
+    }
+    world.indices = {0, 1, 2, 2, 1, 3};
+    world.texture = texture;
+    world.cut_out = true;
+    const Hemisphere hemisphere(eye_distance_m);
+    const PatchRelief relief = make_patch_relief(world, hemisphere, 0, town_limits());
+    const glm::dvec3 eye(0.03, -0.05, 0.49);
+    const SeenWindow seen = drawn(relief, eye, px);
+    int hits = 0;
+    for (int y = 0; y < px; ++y) {
+        for (int x = 0; x < px; ++x) {
+            // Alpha is one half where the texture has its middle.
+            const double on_window = half_window_m * (2.0 * (x + 0.5) / px - 1.0);
+            const double on_wall = eye.x + (on_window - eye.x) * (eye.z + 0.05) / eye.z;
+            if (std::abs(on_wall) > texel_m) {
+                ASSERT_EQ(seen.hit(x, y), on_wall > 0.0) << x << ", " << y;
+            }
+            if (seen.hit(x, y)) {
+                ++hits;
+                EXPECT_EQ(seen.colours.at(x, y), glm::u8vec4(90, 160, 230, 255));
+            }
+        }
+    }
+    EXPECT_GT(hits, px * px / 4);
 }
 
 TEST(PatchRelief, IsEmptyWhereNothingIsSeen) {
