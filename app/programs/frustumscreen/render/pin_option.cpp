@@ -53,7 +53,7 @@ ArgumentCheck is_pin() {
                                  "from the table's middle, such as 0.2,-0.1 or 0.2,-0.1,45",
                                  text);
     };
-    return {check, "X,Y[,YAW_DEG]"};
+    return {check, ""};
 }
 
 Result<std::vector<scene::WindowPlace>> places_of(const std::vector<std::string>& pins,

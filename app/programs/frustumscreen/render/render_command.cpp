@@ -91,8 +91,8 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
            "pin what the first pose shows, as its eye sees it, as a window at X,Y on the table, metres, "
            "turned by YAW_DEG; all pictures show it; up to six times")
         .check(is_pin())
-        .expected(1)
-        .allow_extra_args(false);
+        .allow_extra_args(false)
+        .type_name("X,Y[,YAW_DEG]");
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points,
                  "also write hit points (frame_00000.pfm; prop frame, metres)");
