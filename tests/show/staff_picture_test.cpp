@@ -1,6 +1,7 @@
 // The staff's pages: another program (zbarimg, of the ZBar project) reads their QR code, and no word overlaps
 // anything.
 
+#include "app/settings/command.h"
 #include "app/show/exhibit_place.h"
 #include "app/show/qr_code.h"
 #include "app/show/staff_picture.h"
