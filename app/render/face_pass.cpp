@@ -66,7 +66,7 @@ int outline_calls(const scene::FramePlan& plan) {
 
 } // namespace
 
-int draw_outline(const geometry::PerCorner<glm::vec4>& corners, const Shader& shader) {
+int draw_outline(std::span<const glm::vec4> corners, const Shader& shader) {
     const std::size_t quads = geometry::fan_quads(corners.size());
     for (std::size_t k = 0; k < quads; ++k) {
         const auto [a, b, c, d] = geometry::fan_quad(corners.size(), k);
@@ -155,6 +155,19 @@ int FacePass::soften_edges(const scene::FramePlan& plan, const ShaderCache& shad
     }
     glDisable(GL_BLEND);
     return static_cast<int>(plan.feathers.size());
+}
+
+void FacePass::mark(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const {
+    const Shader* const outline = shaders.find({scene::ShaderKey::Pass::Outline});
+    if (outline == nullptr) {
+        return;
+    }
+    glEnable(GL_STENCIL_TEST);
+    glEnable(GL_SCISSOR_TEST);
+    mark_faces(plan, *outline, raster);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glBindVertexArray(0);
 }
 
 int FacePass::light(const Lit& lit, Contents contents) const {
@@ -252,6 +265,10 @@ void FacePass::mark_faces(const scene::FramePlan& plan, const Shader& outline, c
         glStencilFunc(GL_ALWAYS, static_cast<GLint>(stencil_value(k)), 0xFF);
         set_scissor(plan.faces[k].bounds, raster);
         draw_outline(plan.faces[k].corners_clip, outline);
+    }
+    if (!plan.cover_clip.empty()) { // a window has one face
+        glStencilFunc(GL_ALWAYS, 0, 0xFF);
+        draw_outline(plan.cover_clip, outline);
     }
     glDepthMask(GL_TRUE);
     set_channels(channels_of(plan, raster));

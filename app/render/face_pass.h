@@ -21,8 +21,8 @@
 
 namespace frustumscreen::render {
 
-/// Draws a face's outline, filled. Returns the number of draw calls.
-int draw_outline(const geometry::PerCorner<glm::vec4>& corners, const Shader& shader);
+/// Draws a convex polygon, filled. Returns the number of draw calls.
+int draw_outline(std::span<const glm::vec4> corners, const Shader& shader);
 
 class FacePass {
 public:
@@ -36,6 +36,9 @@ public:
     /// not prepared, and draws whose mesh or texture is not in the store.
     int draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
              const Raster& raster = {}, Output output = Output::Colours);
+
+    /// Marks the plan's faces in the stencil, all but what covers them, as `draw` does before it draws.
+    void mark(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
 
     /// The plan's torches with some of the contents on the meshes and blocks that `draw` has just drawn there. Returns the number of
     /// draw calls.

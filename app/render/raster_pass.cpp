@@ -226,11 +226,13 @@ void RasterPass::find_lit(const scene::FramePlan& plan, const GpuStore& store) {
     }
 }
 
-void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle& part) {
+void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle& part,
+                             Rectangles rectangles) {
+    const bool may_copy = rectangles == Rectangles::MayBeCopied;
     const auto add = [&](int left, int right) {
         const PixelRectangle columns{.x = left, .y = part.y, .width = right - left, .height = part.height};
         if (!columns.empty()) {
-            (stands_alone(plan, columns) ? copied_ : drawn_).push_back(columns);
+            (may_copy && stands_alone(plan, columns) ? copied_ : drawn_).push_back(columns);
         }
     };
     const int right = part.x + part.width;
@@ -247,7 +249,8 @@ void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle&
     add(deep.x + deep.width, right);
 }
 
-void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth_of) {
+void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth_of,
+                       Rectangles rectangles) {
     copied_.clear();
     drawn_.clear();
     in_depth_.clear();
@@ -286,7 +289,7 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
                                                                      .stride = memory_.width},
                                                                     &light_, depth);
     for (const PixelRectangle& part : painted) {
-        add_painted(plan, part);
+        add_painted(plan, part, rectangles);
     }
     glActiveTexture(GL_TEXTURE0);
     if (!drawn_.empty() || !in_depth_.empty()) {

@@ -35,9 +35,11 @@ public:
     [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs, int width, int height);
 
     enum class Depth { WhereItMeets, Everywhere };
+    enum class Rectangles { MayBeCopied, AreDrawn };
     /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws. Everywhere: all of it is to be
-    /// shown by `show_in_depth`.
-    void paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth = Depth::WhereItMeets);
+    /// shown by `show_in_depth`. AreDrawn: `show` keeps what lies between their pixels.
+    void paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth = Depth::WhereItMeets,
+               Rectangles rectangles = Rectangles::MayBeCopied);
     /// Draws those parts of the painted reliefs that meet the GPU's draws, into the bound framebuffer, in which FacePass
     /// has drawn them; returns the number of draw calls.
     int show_in_depth(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
@@ -77,7 +79,7 @@ private:
     int light_rectangles(const scene::FramePlan& plan, const scene::TorchDraw& lit, const Shader& shader,
                          const Raster& raster, std::span<const PixelRectangle> rectangles);
     /// Sorts what was painted by the way in which it is shown.
-    void add_painted(const scene::FramePlan& plan, const PixelRectangle& part);
+    void add_painted(const scene::FramePlan& plan, const PixelRectangle& part, Rectangles rectangles);
 
     std::unique_ptr<relief::ReliefPainter> painter_; ///< null: no picture was prepared
     scene::RasterLight light_;

@@ -103,6 +103,9 @@ Renderer::Picture Renderer::picture_of(const scene::FramePlan& plan) {
             picture.on_table[picture.count++] = {scene::hash_of(draw), draw.bounds};
         }
     }
+    for (std::size_t k = 0; k < plan.window_count && picture.count < picture.on_table.size(); ++k) {
+        picture.on_table[picture.count++] = {plan.windows[k].hash, scene::bounds_in_prop(plan.windows[k])};
+    }
     return picture;
 }
 
@@ -120,9 +123,7 @@ Renderer::Repaint Renderer::to_redraw(const scene::FramePlan& plan, std::size_t 
     held.add_changes(picture, repaint.part);
     picture.add_changes(held, repaint.part);
     repaint.part = repaint.prop ? united(repaint.part, held.prop_bounds) : repaint.part;
-    if (repaint.prop || !intersected(repaint.part, picture.prop_bounds).empty()) {
-        repaint = {.part = united(repaint.part, picture.prop_bounds), .prop = true};
-    }
+    include_touched(std::span(&plan, 1), std::span(&picture, 1), repaint);
     return repaint;
 }
 
@@ -132,10 +133,7 @@ void Renderer::share_clears(std::span<const scene::FramePlan> plans, const EyePi
     if (overlaid && !repaints[0].whole) {
         Repaint both{.part = united(repaints[0].part, repaints[1].part),
                      .prop = repaints[0].prop || repaints[1].prop};
-        const PixelRectangle prop = united(pictures[0].prop_bounds, pictures[1].prop_bounds);
-        if (both.prop || !intersected(both.part, prop).empty()) {
-            both = {.part = united(both.part, prop), .prop = true};
-        }
+        include_touched(plans, pictures, both);
         repaints = {both, both};
     }
     for (std::size_t eye = 0; eye < plans.size(); ++eye) {
@@ -258,6 +256,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
             result.draw_calls += raster_pass_.light({plan, store_, shaders_, direct, torches});
         }
     }
+    paint_windows(plan, target, repaint.part, result);
     set_channels(glm::bvec3(true));
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
 }

@@ -96,7 +96,8 @@ private:
         std::uint64_t hash = 0;
         std::uint64_t prop_hash = 0;
         PixelRectangle prop_bounds;
-        std::array<OnTable, scene::max_on_table + 16> on_table{}; ///< including the prop's faces in black
+        /// Including the faces of prop and windows in black, and the windows' pictures.
+        std::array<OnTable, scene::max_on_table + 16 + 2 * scene::max_windows> on_table{};
         std::size_t count = 0;
         [[nodiscard]] bool lies(const OnTable& draw) const;
         void add_changes(const Picture& other, PixelRectangle& changes) const;
@@ -113,10 +114,22 @@ private:
     Renderer(int width, int height) : width_(width), height_(height) {}
     void paint(const scene::FramePlan& plan, const RenderTarget& target, const Repaint& repaint,
                DrawResult& result);
+    /// The plan's windows that meet the part, which holds each of them whole.
+    void paint_windows(const scene::FramePlan& plan, const RenderTarget& target, const PixelRectangle& part,
+                       DrawResult& result);
+    /// Draws a window of the plan into the bound target; returns the number of draw calls.
+    int draw_window(const scene::FramePlan& window, const scene::FramePlan& plan, const RenderTarget& target,
+                    const Raster& direct);
+    /// What of a window the GPU draws, into the bound target, whose stencil then marks the window.
+    int draw_surfaces(const scene::FramePlan& window, const scene::FramePlan& plan,
+                      const RenderTarget& target, const Raster& direct);
     /// The plan's torches with some of the contents on what has depth. Returns the number of draw calls.
     int light_in_depth(const Lit& lit, Contents contents);
     [[nodiscard]] Repaint to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,
                                     const RenderTarget& target, Redraw redraw) const;
+    /// Widens a part until it holds the prop and each window of these pictures either whole or not at all.
+    static void include_touched(std::span<const scene::FramePlan> plans, std::span<const Picture> pictures,
+                                Repaint& repaint);
     /// Clears two whole pictures at once: a driver on the processor clears a part of a framebuffer, or some of its
     /// colours, as it draws, which takes several times as long. Eyes in the same pixels are redrawn together, so that one
     /// clear serves both.

@@ -7,7 +7,9 @@
 #include "app/scene/pixel_density.h"
 #include "app/scene/plan_hash.h"
 #include "app/scene/prop_outline.h"
+#include "app/scene/table_plan.h"
 #include "app/scene/torch_plan.h"
+#include "app/scene/window_plan.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
 
@@ -284,70 +286,6 @@ int samples_on_gpu(std::span<const Part> parts) {
     return drawn != parts.end() ? drawn->level.samples : (parts.empty() ? 0 : 1);
 }
 
-/// A quadrilateral with a picture, or black.
-Draw draw_flat(const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip, TextureId texture,
-               double brightness, const PixelRectangle& bounds) {
-    std::array<glm::vec4, 4> columns{};
-    std::transform(outline.begin(), outline.end(), columns.begin(),
-                   [&](const glm::dvec3& corner) { return corner_in_clip(corner, clip); });
-    Draw draw;
-    draw.shader = {ShaderKey::Pass::TablePicture};
-    draw.drawable.material.texture = texture;
-    draw.clip_from_unit = glm::mat4(columns[0], columns[1], columns[2], columns[3]);
-    draw.brightness = static_cast<float>(brightness);
-    draw.bounds = bounds;
-    return draw;
-}
-
-/// Draws the pictures, and then the prop's faces in black, so that no picture lights them; pictures with
-/// `on_prop` follow.
-void plan_table(const Shared& shared, FramePlan& plan) {
-    const glm::dmat4 clip_from_table =
-        shared.view.projector.clip_from_point() * shared.view.table_from_projector.inverse().matrix();
-    const auto bounds_of = [&](const std::array<glm::dvec3, 4>& outline, const glm::dmat4& clip) {
-        std::array<glm::dvec4, 4> corners;
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            corners[k] = clip * glm::dvec4(outline[k], 1.0);
-        }
-        return pixels_around(corners, shared.view.projector);
-    };
-    PixelRectangle bounds;
-    const auto add = [&](const TablePicture& picture) {
-        const PixelRectangle own = bounds_of(picture.corners_m, clip_from_table);
-        if (picture.brightness > 0.0 && !own.empty()) {
-            plan.draws.push_back(
-                draw_flat(picture.corners_m, clip_from_table, picture.texture, picture.brightness, own));
-            bounds = united(bounds, own);
-        }
-    };
-    for (const TablePicture& picture : shared.view.on_table) {
-        if (!picture.on_prop) {
-            add(picture);
-        }
-    }
-    if (shared.view.caption) {
-        add(*shared.view.caption);
-    }
-    for (const geometry::PropFace& face : shared.prop.faces) {
-        if (face.plane.distance(shared.projector_in_prop) > 0.0) {
-            for (std::size_t k = 0; k < geometry::fan_quads(face.corners.size()); ++k) {
-                const auto [a, b, c, d] = geometry::fan_quad(face.corners.size(), k);
-                const std::array<glm::dvec3, 4> part{face.corners[a], face.corners[b], face.corners[c],
-                                                     face.corners[d]};
-                const PixelRectangle own = intersected(bounds, bounds_of(part, shared.clip_from_prop));
-                if (!own.empty()) {
-                    plan.draws.push_back(draw_flat(part, shared.clip_from_prop, TextureId::None, 0.0, own));
-                }
-            }
-        }
-    }
-    for (const TablePicture& picture : shared.view.on_table) {
-        if (picture.on_prop) {
-            add(picture);
-        }
-    }
-}
-
 /// The least of the references for each eye: with different ones the eyes would see different brightness.
 double dimmed_light(const Shared& shared, const LightCompensation& compensation) {
     const std::size_t faces = std::min(shared.prop.faces.size(), geometry::max_faces);
@@ -463,7 +401,7 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
     plan.relief_draw_count = 0;
     plan.lit.begin(view.projector.width, view.projector.height);
     plan.prop_bounds = prop_bounds(prop, view.projector, shared.clip_from_prop);
-    plan_table(shared, plan);
+    plan_table(prop, view, plan);
     std::uint32_t open = 0;
     if (!view.eyes_m.empty() && view.brightness > 0.0) {
         open = plan_parts(parts, shared, plan);
@@ -478,6 +416,7 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
         compensate(shared, *view.light, open, plan);
     }
     plan_torches(parts, view, shared.box, plan);
+    plan_windows(prop, view, plan);
     plan.prop_hash = hash_of_prop(plan);
     plan.hash = hash_of(plan);
 }
@@ -492,6 +431,9 @@ PixelRectangle lit_bounds(const FramePlan& plan) {
     PixelRectangle bounds = plan.lit.bounds();
     for (const Draw& draw : plan.draws) {
         bounds = united(bounds, draw.bounds);
+    }
+    for (std::size_t k = 0; k < plan.window_count; ++k) {
+        bounds = united(bounds, bounds_in_prop(plan.windows[k]));
     }
     return bounds;
 }

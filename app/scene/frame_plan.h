@@ -132,6 +132,8 @@ struct PlanView {
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
 /// signs and words, a notice and its ring.
 inline constexpr std::size_t max_on_table = 96;
+/// Enough for those of the settings.
+inline constexpr std::size_t max_windows = settings::max_windows;
 
 /// A run of FramePlan::indices.
 struct IndexRange {
@@ -221,7 +223,7 @@ struct FramePlan {
     std::vector<std::uint32_t> indices; ///< of the triangles that the draws show
     LitTiles lit;                       ///< contain every pixel that the draws in the prop can light
     PixelRectangle prop_bounds;         ///< around the prop, also its dark parts
-    std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer)
+    std::uint64_t hash = 0;             ///< equal for equal pictures (of one renderer), windows included
     std::uint64_t prop_hash = 0;        ///< as `hash`, only for the draws in the prop
     FrontTriangles front;               ///< of the part and the eye planned last; not drawn
     std::vector<ReliefDraw>
@@ -233,10 +235,16 @@ struct FramePlan {
     std::vector<FramePlan> torch_views;
     std::vector<Part> casters;   ///< the parts of a torch's own picture
     geometry::PropShape surface; ///< of a torch's own picture: the square that its light meets first
+    /// What each window shows, drawn after all else; of the frame are the first `window_count`. One that shows nothing has
+    /// no faces.
+    std::vector<FramePlan> windows;
+    std::size_t window_count = 0;
+    /// Of a window's plan: a convex polygon in the picture that the prop covers, with a margin; empty if it is beside the window.
+    std::vector<glm::vec4> cover_clip;
 };
 
-/// A plan with room for every face of `parts` parts that have `indices` indices together. A plan for torches takes some
-/// more room (torch_plan.h); without it none are planned.
+/// A plan with room for every face of `parts` parts that have `indices` indices together. A plan for torches or windows takes
+/// some more room (torch_plan.h, window_plan.h); without it none are planned.
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact);
 
@@ -248,7 +256,7 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
 void plan_frame(const geometry::PropShape& prop, const PlacedLevel& artifact, const PlanView& view,
                 FramePlan& plan);
 
-/// Every pixel that the plan can light.
+/// Every pixel that the plan can light, in windows too.
 [[nodiscard]] PixelRectangle lit_bounds(const FramePlan& plan);
 /// Every pixel that the draws in the prop can light.
 [[nodiscard]] PixelRectangle bounds_in_prop(const FramePlan& plan);

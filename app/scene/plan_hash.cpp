@@ -17,12 +17,16 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
+void hash_corner(const glm::vec4& corner, Hash& hash) {
+    for (int k = 0; k < 4; ++k) {
+        hash.add_float(corner[k]);
+    }
+}
+
 void hash_corners(const geometry::PerCorner<glm::vec4>& corners, Hash& hash) {
     hash.add(corners.size());
     for (const glm::vec4& corner : corners) {
-        for (int k = 0; k < 4; ++k) {
-            hash.add_float(corner[k]);
-        }
+        hash_corner(corner, hash);
     }
 }
 
@@ -91,6 +95,12 @@ std::uint64_t hash_of(const FramePlan& plan) {
         if (draw.face == Draw::on_table) {
             hash_draw(draw, hash);
         }
+    }
+    for (std::size_t k = 0; k < plan.window_count; ++k) {
+        hash.add(plan.windows[k].hash);
+    }
+    for (const glm::vec4& corner : plan.cover_clip) {
+        hash_corner(corner, hash);
     }
     return hash.value();
 }

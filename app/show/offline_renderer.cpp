@@ -6,6 +6,7 @@
 #include "app/scene/exposure.h"
 #include "app/scene/scene_level.h"
 #include "app/scene/torch_plan.h"
+#include "app/scene/window_plan.h"
 #include "app/world/player.h"
 
 #include <algorithm>
@@ -145,6 +146,9 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
         if (scene.torch) {
             scene::make_torch_space(plans_.back(), prop_.faces.size(), indices, parts_.size());
         }
+        if (scene.setup.options.windows > 0) {
+            scene::make_window_space(plans_.back(), scene.setup.options.windows, indices, parts_.size());
+        }
     }
     return scene.torch ? take_torch(scene) : Result<void>();
 }
@@ -157,6 +161,29 @@ void OfflineRenderer::pose_cells(double seconds) {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         scene::set_pose(parts_[k].level, poses[shown_[k].cell.value()], metres_per_box_);
     }
+}
+
+bool OfflineRenderer::pin(const scene::WindowPlace& place, const geometry::RigidTransform& table_from_prop,
+                          const glm::dvec3& eye_m, double seconds) {
+    pose_cells(seconds);
+    const std::optional<scene::WorldBall> world = scene::ball_around(parts_);
+    const std::optional<scene::PinnedView> view = world ? scene::pin_view({.table_from_prop = table_from_prop,
+                                                                           .prop_middle = prop_.middle,
+                                                                           .eye_m = eye_m,
+                                                                           .world = *world,
+                                                                           .place = place})
+                                                        : std::nullopt;
+    if (!view) {
+        return false;
+    }
+    auto window = std::make_unique<Window>(Window{*view, {}});
+    scene::move_behind(view->window_from_prop, parts_, window->parts);
+    placed_windows_.push_back({.surface = &window->view.surface,
+                               .table_from_window = view->table_from_window,
+                               .parts = window->parts,
+                               .brightness = exposure_});
+    windows_.push_back(std::move(window));
+    return true;
 }
 
 Result<void> OfflineRenderer::take_torch(const OfflineScene& scene) {
@@ -250,7 +277,8 @@ OfflinePicture OfflineRenderer::draw(const geometry::RigidTransform& table_from_
                                .eyes_m = {},
                                .light = light_,
                                .brightness = exposure_,
-                               .torches = torches};
+                               .torches = torches,
+                               .windows = placed_windows_};
     const std::array<scene::PlanView, 2> of_eyes = scene::views_of(layout_, view, eyes_m);
     const std::span<const scene::PlanView> views = std::span(of_eyes).first(layout_.count);
     if (!warm_) {

@@ -10,6 +10,7 @@
 #include "app/render/renderer.h"
 #include "app/scene/error_estimate.h"
 #include "app/scene/frame_plan.h"
+#include "app/scene/pinned_view.h"
 #include "app/scene/stereo.h"
 #include "app/show/offline_scene.h"
 #include "firmware_host/display/surfaceless_display.h"
@@ -43,6 +44,10 @@ public:
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
                                       std::span<const glm::dvec3> eyes_m, double seconds = 0.0,
                                       std::span<const scene::PlacedTorch> torches = {});
+    /// Pins what the eye sees through the prop at this pose as a window; `draw` draws it from now on. The artifact in it stays
+    /// as it is at that time. At most OfflineOptions::windows. False: the eye is not above the table.
+    [[nodiscard]] bool pin(const scene::WindowPlace& place, const geometry::RigidTransform& table_from_prop,
+                           const glm::dvec3& eye_m, double seconds = 0.0);
     /// The torch of the settings with the content of the options, `seconds` after it began. Needs OfflineOptions::torch.
     [[nodiscard]] scene::PlacedTorch torch_at(const geometry::RigidTransform& table_from_torch,
                                               double seconds);
@@ -61,6 +66,11 @@ private:
     struct Shown {
         scene::SeenLevel seen;
         std::optional<std::size_t> cell;
+    };
+
+    struct Window {
+        scene::PinnedView view;
+        std::vector<scene::Part> parts;
     };
 
     OfflineRenderer(const scene::StereoLayout& layout, const scene::ScenePlan& plan);
@@ -91,6 +101,8 @@ private:
     torch::Beam beam_;
     scene::TextureId torch_picture_ = scene::TextureId::None;
     std::size_t film_frame_ = 0;
+    std::vector<std::unique_ptr<const Window>> windows_;
+    std::vector<scene::PlacedWindow> placed_windows_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
     std::unique_ptr<display::SurfacelessDisplay>
         display_; ///< declared before everything that lives in its context

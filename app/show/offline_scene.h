@@ -37,6 +37,7 @@ struct OfflineOptions {
     std::string behaviour = {}; ///< that moves the artifact's cells; empty: it is drawn at rest
     std::string torch =
         {}; ///< content that torches throw: torch::white_name, or one of the pack's; empty: there are none
+    std::size_t windows = 0; ///< that may be pinned, up to scene::max_windows
 };
 
 struct OfflineSetup {

@@ -227,12 +227,15 @@ VisitorCamera visitor_camera(const geometry::PropShape& prop, const geometry::Ri
 }
 
 VisitorCamera whole_camera(const VisitorScene& scene, int width, int height) {
-    std::vector<glm::dvec3> shown(scene.screen->corners_m.begin(), scene.screen->corners_m.end());
+    std::vector<glm::dvec3> shown = scene.beside_m;
     for (const glm::dvec3& corner : scene.prop.corners) {
         shown.push_back(scene.table_from_prop.point(corner));
     }
-    for (const double side : {-0.5, 0.5}) {
-        shown.emplace_back(side * scene.table_size_m.x, 0.5 * scene.table_size_m.y, 0.0);
+    if (scene.screen) {
+        shown.insert(shown.end(), scene.screen->corners_m.begin(), scene.screen->corners_m.end());
+        for (const double side : {-0.5, 0.5}) {
+            shown.emplace_back(side * scene.table_size_m.x, 0.5 * scene.table_size_m.y, 0.0);
+        }
     }
     glm::dvec3 forward(0.0);
     for (const glm::dvec3& place : shown) {

@@ -47,6 +47,7 @@ struct VisitorScene {
     glm::dvec2 table_size_m{0.8, 0.5};    ///< along X and Y
     std::vector<RoomObject> objects = {}; ///< they cast no shadows; empty for pictures that are measured
     std::optional<VisitorScreen> screen = std::nullopt;
+    std::vector<glm::dvec3> beside_m = {}; ///< further places that a picture of the whole shows
 };
 
 struct VisitorCamera {
@@ -65,8 +66,8 @@ struct VisitorCamera {
                                            const geometry::RigidTransform& table_from_prop,
                                            const glm::dvec3& eye_m, int width, int height);
 
-/// The camera at the eye that has the prop, the table's far edge and the screen in its picture, for a picture of the whole.
-/// The scene must have a screen.
+/// The camera at the eye that has the prop and `beside_m` in its picture, and where there is a screen that and the table's
+/// far edge, for a picture of the whole.
 ///
 /// Method   no roll; it looks at the middle of what it shows, which takes 0.94 of the picture in the narrower direction.
 [[nodiscard]] VisitorCamera whole_camera(const VisitorScene& scene, int width, int height);

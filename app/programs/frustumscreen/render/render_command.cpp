@@ -5,6 +5,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/common/progress_line.h"
 #include "app/programs/frustumscreen/render/eye_choice.h"
+#include "app/programs/frustumscreen/render/pin_option.h"
 #include "app/programs/frustumscreen/render/pose_input.h"
 #include "app/programs/frustumscreen/render/screen_painter.h"
 #include "app/programs/frustumscreen/render/screen_pictures.h"
@@ -40,6 +41,7 @@ struct Request {
     int width = 0;   ///< width of the written pictures; 0: the view's
     int height = 0;
     bool no_light = false;
+    std::vector<std::string> pins;
     show::OfflineOptions options;
 };
 
@@ -84,6 +86,13 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     app.add_option("--torch", request.options.torch,
                    "light the artifact with the torch, station 3 of the poses: white, for plain light, or a "
                    "content of the pack");
+    app.add_option(
+           "--pin", request.pins,
+           "pin what the first pose shows, as its eye sees it, as a window at X,Y on the table, metres, "
+           "turned by YAW_DEG; all pictures show it; up to six times")
+        .check(is_pin())
+        .expected(1)
+        .allow_extra_args(false);
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points,
                  "also write hit points (frame_00000.pfm; prop frame, metres)");
@@ -118,7 +127,8 @@ struct Studio {
     show::OfflineRenderer& renderer;
     ScreenPainter* screen; ///< none: the settings have no screen, or the view does not show it
     EyeChoice eye;
-    MonotonicTime begin; ///< of the first pose
+    MonotonicTime begin;               ///< of the first pose
+    std::vector<glm::dvec3> windows_m; ///< their corners
 
     [[nodiscard]] std::vector<glm::dvec3> eyes_m(const tracking::TrackedState& state) const {
         return chosen_eyes(eye, state, 1e-3 * settings.eye.interocular_mm);
@@ -134,7 +144,8 @@ simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::Tra
                                    .prop = studio.renderer.prop(),
                                    .table_from_prop = tracked_state.table_from_prop,
                                    .eye_m = eye_m,
-                                   .table_size_m = {settings.table.width_m, settings.table.depth_m}};
+                                   .table_size_m = {settings.table.width_m, settings.table.depth_m},
+                                   .beside_m = studio.windows_m};
     if (studio.screen != nullptr) {
         studio.screen->draw(to_seconds(tracked_state.time - studio.begin), std::span(&eye_m, 1));
         scene.screen = simulation::VisitorScreen{.corners_m = settings.screen.corners_m,
@@ -151,7 +162,7 @@ simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::Tra
 simulation::VisitorCamera camera_of(const Request& request, const simulation::VisitorScene& scene) {
     const int width = request.width > 0 ? request.width : std::max(1, scene.projector.width / 2);
     const int height = request.height > 0 ? request.height : std::max(1, scene.projector.height / 2);
-    return request.view == "room"
+    return request.view == "room" || !scene.beside_m.empty()
                ? simulation::whole_camera(scene, width, height)
                : simulation::visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, width, height);
 }
@@ -194,6 +205,7 @@ show::OfflineOptions options_for(const Request& request, EyeChoice eye, const se
                                  const std::vector<tracking::TrackedState>& frames) {
     show::OfflineOptions options = request.options;
     options.both_eyes = eye == EyeChoice::Both;
+    options.windows = request.pins.size();
     for (const tracking::TrackedState& frame : frames) {
         for (const glm::dvec3& eye_m : chosen_eyes(eye, frame, 1e-3 * settings.interocular_mm)) {
             options.views.push_back({frame.table_from_prop, eye_m});
@@ -226,6 +238,7 @@ Result<void> render_screen(const Request& request, const settings::Settings& set
     say_unused("--technique", request.options.technique != "auto");
     say_unused("--behaviour", !request.options.behaviour.empty());
     say_unused("--view", request.view != "projector");
+    say_unused("--pin", !request.pins.empty());
     TRY_VOID(make_folder(request.out));
     return write_screen_pictures(settings,
                                  {.eye = request.eye,
@@ -234,6 +247,21 @@ Result<void> render_screen(const Request& request, const settings::Settings& set
                                   .hit_points = request.options.hit_points,
                                   .out = request.out},
                                  frames);
+}
+
+Result<void> pin_windows(const std::vector<scene::WindowPlace>& places,
+                         const std::vector<tracking::TrackedState>& frames, show::OfflineRenderer& renderer) {
+    for (std::size_t k = 0; k < places.size() && !frames.empty(); ++k) {
+        const glm::dvec3& eye_m = frames.front().eye_m;
+        if (!renderer.pin(places[k], frames.front().table_from_prop, eye_m)) {
+            return bad_input(
+                "render.pin_eye",
+                "--pin: the eye of the first pose is at {:.3f}, {:.3f}, {:.3f} m; whoever pins a "
+                "window looks at it from above the table: give it a z above 0",
+                eye_m.x, eye_m.y, eye_m.z);
+        }
+    }
+    return {};
 }
 
 Result<void> render_prop(const Request& request, const settings::CheckedSettings& settings,
@@ -248,6 +276,7 @@ Result<void> render_prop(const Request& request, const settings::CheckedSettings
     }
     TRY(const EyeChoice eye, choose_eye(request.eye, settings::stereo_of(*settings),
                                         request.options.hit_points || request.view != "projector"));
+    TRY(const std::vector<scene::WindowPlace> places, places_of(request.pins, settings->windows));
     const show::OfflineSetup setup{settings, options_for(request, eye, settings->eye, frames)};
     TRY(const show::OfflineScene scene,
         show::load_offline(request.pack, [&](const pack::PackOutline& /*outline*/) { return setup; }));
@@ -257,6 +286,7 @@ Result<void> render_prop(const Request& request, const settings::CheckedSettings
     }
     TRY_VOID(make_folder(request.out));
     TRY(const std::unique_ptr<show::OfflineRenderer> renderer, show::OfflineRenderer::create(scene));
+    TRY_VOID(pin_windows(places, frames, *renderer));
     std::unique_ptr<ScreenPainter> screen;
     if (settings->screen.exists() && request.view != "projector") {
         TRY(screen, ScreenPainter::create(*settings, request.eye, true));
@@ -266,7 +296,8 @@ Result<void> render_prop(const Request& request, const settings::CheckedSettings
                         .renderer = *renderer,
                         .screen = screen.get(),
                         .eye = eye,
-                        .begin = frames.empty() ? MonotonicTime{} : frames.front().time};
+                        .begin = frames.empty() ? MonotonicTime{} : frames.front().time,
+                        .windows_m = corners_of(places)};
     std::string csv = "frame,t_us,ms,technique,estimated_error_mm,p95_error_mm\n";
     std::vector<simulation::VisitorFrame> visitor_frames;
     ProgressLine progress("rendering");

@@ -1,0 +1,151 @@
+#include "app/scene/window_plan.h"
+
+#include "app/geometry/corner_fan.h"
+#include "app/scene/face_view.h"
+#include "app/scene/prop_outline.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <span>
+
+namespace frustumscreen::scene {
+
+namespace {
+
+/// Half a pixel keeps clear of every pixel that the prop touches; as much again is for its feathered edge.
+constexpr double cover_margin_px = 1.0;
+constexpr std::size_t corners_of_pixel = 4;
+
+/// The prop's outline in the projector's picture.
+struct Cover {
+    bool all = false;   ///< the prop reaches to the projector or behind it
+    PixelRectangle lit; ///< around it
+    std::array<glm::vec4, corners_of_pixel * geometry::max_corners> clip{};
+    std::size_t count = 0; ///< of corners
+};
+
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Sorts `points`, and writes their convex hull to `hull`; returns the number of its corners.
+/// Method: the monotone chain (Andrew 1979).
+std::size_t find_hull(std::span<glm::dvec2> points, std::span<glm::dvec2> hull) {
+    std::sort(points.begin(), points.end(),
+              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    std::size_t count = 0;
+    const auto add = [&](const glm::dvec2& point, std::size_t begin) {
+        while (count >= begin + 2 && !(turn(hull[count - 2], hull[count - 1], point) > 0.0)) {
+            --count;
+        }
+        hull[count++] = point;
+    };
+    for (const glm::dvec2& point : points) {
+        add(point, 0);
+    }
+    const std::size_t upper = count - 1;
+    for (std::size_t k = points.size() - 1; k-- > 0;) {
+        add(points[k], upper);
+    }
+    return count - 1; // the first point came again
+}
+
+Cover cover_of(const geometry::PropShape& prop, const PlanView& view) {
+    constexpr std::size_t most = corners_of_pixel * geometry::max_corners;
+    assert(prop.corners.size() <= geometry::max_corners);
+    Cover cover;
+    if (prop.corners.empty()) {
+        return cover;
+    }
+    const geometry::RigidTransform projector_from_prop =
+        view.table_from_projector.inverse() * view.table_from_prop;
+    const geometry::Pinhole ideal = view.projector.ideal(); // the lens bends what is drawn
+    std::array<glm::dvec2, most> points{};
+    std::size_t count = 0;
+    for (const glm::dvec3& corner : prop.corners) {
+        const std::optional<glm::dvec2> pixel = ideal.pixel(projector_from_prop.point(corner));
+        if (!pixel || !std::isfinite(pixel->x + pixel->y)) {
+            cover.all = true;
+            return cover;
+        }
+        for (unsigned k = 0; k < corners_of_pixel; ++k) {
+            points[count++] =
+                *pixel + cover_margin_px * (2.0 * glm::dvec2(k & 1U, k >> 1U & 1U) - glm::dvec2(1.0));
+        }
+    }
+    std::array<glm::dvec2, most + 1> hull{};
+    cover.count = find_hull(std::span(points).first(count), hull);
+    std::array<glm::dvec4, most> clip{};
+    for (std::size_t k = 0; k < cover.count; ++k) {
+        clip[k] = {2.0 * hull[k] / glm::dvec2(ideal.width, ideal.height) - 1.0, 0.0, 1.0};
+        cover.clip[k] = glm::vec4(clip[k]);
+    }
+    cover.lit = pixels_around(std::span(clip).first(cover.count), view.projector);
+    return cover;
+}
+
+/// The picture of the prop's eye, with the window in the prop's place.
+PlanView through(const PlacedWindow& window, const PlanView& view) {
+    PlanView seen{.projector = view.projector,
+                  .table_from_projector = view.table_from_projector,
+                  .table_from_prop = window.table_from_window,
+                  .eyes_m = view.eyes_m,
+                  .light = view.light,
+                  .brightness = window.brightness,
+                  .picture = view.picture,
+                  .dimming_eyes_m = view.dimming_eyes_m};
+    if (seen.light) {
+        seen.light->hull.reset(); // of what the prop shows
+    }
+    return seen;
+}
+
+void plan_window(const PlacedWindow& window, const PlanView& view, const Cover& cover, FramePlan& plan) {
+    const PlanView seen = through(window, view);
+    const glm::dmat4 clip_from_window =
+        view.projector.clip_from_point() *
+        (view.table_from_projector.inverse() * window.table_from_window).matrix();
+    plan.cover_clip.clear();
+    if (!intersected(cover.lit, prop_bounds(*window.surface, view.projector, clip_from_window)).empty()) {
+        plan.cover_clip.assign(cover.clip.begin(),
+                               cover.clip.begin() + static_cast<std::ptrdiff_t>(cover.count));
+    }
+    plan_frame(*window.surface, window.parts, seen, plan);
+}
+
+} // namespace
+
+void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts) {
+    geometry::PropShape surface;
+    geometry::PropFace& face = surface.faces.emplace_back();
+    for (std::size_t k = 0; k < geometry::max_face_corners; ++k) {
+        face.corners.push_back({});
+    }
+    plan.windows.clear();
+    plan.windows.reserve(windows);
+    for (std::size_t k = 0; k < windows; ++k) {
+        FramePlan& window = plan.windows.emplace_back(make_plan(surface, indices, parts));
+        window.cover_clip.reserve(corners_of_pixel * geometry::max_corners);
+    }
+    plan.draws.reserve(plan.draws.capacity() + windows * geometry::fan_quads(face.corners.size()));
+}
+
+void plan_windows(const geometry::PropShape& prop, const PlanView& view, FramePlan& plan) {
+    plan.window_count = 0;
+    if (view.windows.empty() || plan.windows.empty()) {
+        return;
+    }
+    const Cover cover = cover_of(prop, view);
+    if (cover.all) {
+        return;
+    }
+    plan.window_count = std::min(view.windows.size(), plan.windows.size());
+    for (std::size_t k = 0; k < plan.window_count; ++k) {
+        plan_window(view.windows[k], view, cover, plan.windows[k]);
+    }
+}
+
+} // namespace frustumscreen::scene

@@ -1,0 +1,23 @@
+/// What pinned windows show in a picture. Each is planned as a prop of one face would be (`plan_frame`), into a plan of its
+/// own, so that it changes nothing of the prop's: neither its samples, nor its tiles, nor its light.
+///
+/// Cover    the prop is nearer to the projector than the table is. Where its outline in the picture, a pixel wider, meets a
+///          window, the window is not drawn.
+/// Frames   as frame_plan.h.
+/// Threads  pure; any. Allocates nothing into a plan that was made with room for windows.
+/// Errors   none: a window that the eye sees from behind, or that the projector does not light, shows nothing.
+#pragma once
+
+#include "app/scene/frame_plan.h"
+
+#include <cstddef>
+
+namespace frustumscreen::scene {
+
+/// Makes room in a plan for `windows` windows of at most `parts` parts that have at most `indices` indices together.
+void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts);
+
+/// Plans the view's windows. Those for which the plan has no room are left out.
+void plan_windows(const geometry::PropShape& prop, const PlanView& view, FramePlan& plan);
+
+} // namespace frustumscreen::scene

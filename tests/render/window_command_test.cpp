@@ -1,0 +1,93 @@
+// `frustumscreen render --pin`: what the first pose shows lies on the table in all pictures, beside a prop whose pixels stay.
+
+#include "app/settings/settings.h"
+#include "tests/folders.h"
+#include "tests/programs/kiosk_folder.h"
+#include "tests/render/rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+class PinCommand : public KioskFolder {
+protected:
+    settings::CheckedSettings settings =
+        settings::load_settings(std::filesystem::path(source_dir()) / "config/near.toml").value();
+
+    void SetUp() override {
+        KioskFolder::SetUp();
+        put("poses.csv", "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                         "1000,1,0,0,0,1,0,0,0,1\n1000,2,0,-0.55,0.5,1,0,0,0,1\n"
+                         "2000,1,0.01,0,0,1,0,0,0,1\n2000,2,0.4,-0.3,0.5,1,0,0,0,1\n");
+        put("below.csv", "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
+                         "1000,1,0,0,0,1,0,0,0,1\n1000,2,0,-0.55,-0.1,1,0,0,0,1\n");
+    }
+    int run(const std::string& more, const std::string& out = "out",
+            const std::string& poses = "poses.csv") const {
+        std::filesystem::remove_all(folder / out);
+        return shell(
+            fmt::format("'{}/frustumscreen' render --config '{}/config/near.toml' --pack rings.fspack "
+                        "--poses {} --out {} --width 320 --height 200 {} >out.txt 2>err.txt",
+                        bin_dir(), source_dir(), poses, out, more));
+    }
+    image::Image8 picture(const std::string& out, int frame) const {
+        const auto file = folder / out / fmt::format("frame_{:05}.png", frame);
+        return image::decode_png8(read_file(file).value()).value();
+    }
+    /// Whether the projector's pixel meets the prop.
+    bool is_prop(int x, int y, double prop_x_m) const {
+        const geometry::Pinhole pinhole = settings->projector.pinhole.scaled_to(320, 200);
+        const geometry::RigidTransform& table_from_projector = settings->projector.table_from_projector;
+        geometry::PropHit hit;
+        return geometry::enter(settings::make_prop(settings->prop),
+                               table_from_projector.translation - glm::dvec3(prop_x_m, 0.0, 0.0),
+                               table_from_projector.direction(pinhole.ray({x + 0.5, y + 0.5})), hit);
+    }
+};
+
+TEST_F(PinCommand, PinsWhatTheFirstPoseShows) {
+    ASSERT_EQ(run("", "plain"), 0) << text("err.txt");
+    ASSERT_EQ(run("--pin 0.15,0 --pin -0.15,0,30", "pinned"), 0) << text("err.txt");
+    ASSERT_EQ(run("--pin 0.15,0 --pin -0.15,0,30", "again"), 0) << text("err.txt");
+    for (const int frame : {0, 1}) {
+        const image::Image8 plain = picture("plain", frame);
+        const image::Image8 pinned = picture("pinned", frame);
+        EXPECT_EQ(pinned.texels, picture("again", frame).texels) << "the same input gives the same bytes";
+        std::size_t left = 0;
+        std::size_t right = 0;
+        std::size_t prop = 0;
+        for (int y = 0; y < plain.height; ++y) {
+            for (int x = 0; x < plain.width; ++x) {
+                if (is_prop(x, y, 0.01 * frame)) {
+                    ++prop;
+                    EXPECT_EQ(plain.at(x, y), pinned.at(x, y)) << x << ' ' << y;
+                } else if (plain.at(x, y) != pinned.at(x, y)) {
+                    ++(x < plain.width / 2 ? left : right);
+                }
+            }
+        }
+        EXPECT_GT(prop, 5000U);
+        EXPECT_GT(left, 100U) << frame;
+        EXPECT_GT(right, 100U) << frame;
+    }
+}
+
+TEST_F(PinCommand, WrongUseIsOneSentence) {
+    for (const char* const pin : {"0.1", "0.1,x", "0.1,0.2,30,4", "1e9,0", "nan,0", "0.1,0.2,400", "''"}) {
+        EXPECT_EQ(run(fmt::format("--pin {}", pin)), 2) << pin;
+        const std::string error = text("err.txt");
+        EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+    }
+    EXPECT_EQ(run("--pin 0,0 --pin 0,0 --pin 0,0 --pin 0,0 --pin 0,0 --pin 0,0 --pin 0,0"), 1);
+    EXPECT_NE(text("err.txt").find("7 windows"), std::string::npos) << text("err.txt");
+    EXPECT_EQ(run("--pin 0.1,0", "out", "below.csv"), 1);
+    EXPECT_NE(text("err.txt").find("above"), std::string::npos) << text("err.txt");
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,468 @@
+// Windows on the table, against rays: each pixel shows what the eye's ray through the table meets behind its window, the
+// prop's pixels are the same bytes as without windows, and all others stay dark.
+
+#include "tests/render/counted_new.h"
+#include "tests/render/stereo_rig.h"
+#include "tests/render/window_rig.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+/// Writes a picture where WINDOW_PICTURES names a folder.
+void keep(const image::Image8& picture, const std::string& name) {
+    if (const char* const folder = std::getenv("WINDOW_PICTURES"); folder != nullptr) {
+        const Bytes bytes = image::encode_png(picture);
+        std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+}
+
+/// Of the parts' colours: red, green, blue.
+int part_of(const glm::u8vec4& code) {
+    const int brightest = std::max({code.r, code.g, code.b});
+    return brightest < 128 ? -1 : brightest == code.r ? 0 : brightest == code.g ? 1 : 2;
+}
+
+struct Seen {
+    std::string name;
+    std::vector<WorldObject> objects;
+    std::vector<Way> chosen;
+    geometry::Lens lens{};
+    int samples = 1;
+    std::size_t windows = 2;
+    int poses = 9;
+};
+
+WindowTolerance tolerance_of(const Seen& seen) {
+    const bool meshes = std::ranges::count(seen.chosen, Way::Mesh) == std::ssize(seen.chosen);
+    const bool exact = seen.samples == 1 && seen.lens.is_plain();
+    return {.outline_px = meshes && exact ? 1.0 / 32.0 : 1.5,
+            .edge_px = exact               ? 1.0 / 32.0
+                       : seen.samples == 1 ? 0.25
+                                           : 1.0};
+}
+
+void check(const Seen& seen) {
+    WindowRig rig(seen.objects, seen.chosen, seen.samples, seen.lens);
+    std::mt19937 random(49);
+    WindowCounts counts;
+    for (int pose = 0; pose < seen.poses; ++pose) {
+        rig.table.shuffle(random);
+        rig.pin_some(random, seen.windows);
+        if (pose % 3 != 0) { // another eye than the one that pinned, and the prop elsewhere
+            rig.table.shuffle(random);
+        }
+        const image::Image8 without = rig.world.picture(rig.view({}));
+        const image::Image8 with = rig.picture();
+        keep(with, seen.name + "_" + std::to_string(pose));
+        count_pixels(
+            WindowTruth(rig.table, rig.pinned), tolerance_of(seen), without, with, part_of,
+            [&](const glm::dvec3& from, const glm::dvec3& direction) { return rig.first(from, direction); },
+            counts);
+    }
+    std::printf("%s: %zu pixels of windows show something, %zu nothing; %zu of the prop, %zu of the table; "
+                "excused: %zu at an outline, %zu at an edge, %zu beside the prop; %zu wrong\n",
+                seen.name.c_str(), counts.shown, counts.empty, counts.prop, counts.table, counts.outline,
+                counts.edge, counts.cover, counts.wrong);
+    const bool exact = tolerance_of(seen).outline_px < 1.0;
+    EXPECT_GT(counts.shown, 100U * seen.windows * static_cast<std::size_t>(seen.poses));
+    EXPECT_GT(counts.empty, 100U * seen.windows * static_cast<std::size_t>(seen.poses));
+    EXPECT_GT(counts.prop, 1000U * static_cast<std::size_t>(seen.poses));
+    // Where two surfaces meet within a texel, a relief may show the other one.
+    EXPECT_LE(counts.wrong, exact ? 0U : counts.windows() / 2000);
+    EXPECT_LT(counts.outline, counts.windows() / (exact ? 200 : 10));
+    EXPECT_LT(counts.edge, counts.windows() / (exact ? 200 : 10));
+    EXPECT_LT(counts.cover, counts.prop / 20);
+}
+
+TEST(Windows, ShowMeshesAsRaysSay) {
+    check({.name = "mesh", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}});
+}
+
+TEST(Windows, ShowARasterizedReliefAsRaysSay) {
+    check({.name = "raster", .objects = as_one(ball_and_post()), .chosen = {Way::RasterizedRelief}});
+}
+
+TEST(Windows, ShowAReliefOfTheGpuAsRaysSay) {
+    check({.name = "gpu", .objects = as_one(ball_and_post()), .chosen = {Way::DrawnRelief}, .poses = 3});
+}
+
+TEST(Windows, ShowCellsBehindAndBeforeEachOther) {
+    check({.name = "cells_m", .objects = ball_and_post(), .chosen = {Way::Mesh, Way::Mesh, Way::Mesh}});
+    check({.name = "cells_rrr",
+           .objects = ball_and_post(),
+           .chosen = {Way::RasterizedRelief, Way::RasterizedRelief, Way::RasterizedRelief}});
+    check({.name = "cells_rmr",
+           .objects = ball_and_post(),
+           .chosen = {Way::RasterizedRelief, Way::Mesh, Way::RasterizedRelief}});
+    check({.name = "cells_rgm",
+           .objects = ball_and_post(),
+           .chosen = {Way::Mesh, Way::RasterizedRelief, Way::DrawnRelief},
+           .poses = 3});
+}
+
+TEST(Windows, AsManyAsThereMayBe) {
+    check({.name = "four_m", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}, .windows = 4});
+    check({.name = "four_r",
+           .objects = as_one(ball_and_post()),
+           .chosen = {Way::RasterizedRelief},
+           .windows = 4});
+}
+
+TEST(Windows, BehindALensThatDistorts) {
+    for (const std::size_t lens : {std::size_t{1}, std::size_t{2}}) {
+        check({.name = "lens_m" + std::to_string(lens),
+               .objects = ball_in_ring(), // of small triangles: a lens bends their corners alone
+               .chosen = {Way::Mesh, Way::Mesh},
+               .lens = lenses[lens]});
+        check({.name = "lens_r" + std::to_string(lens),
+               .objects = ball_in_ring(),
+               .chosen = {Way::RasterizedRelief, Way::RasterizedRelief},
+               .lens = lenses[lens]});
+    }
+}
+
+TEST(Windows, SeveralSamplesAPixelAreRightAwayFromEdges) {
+    check({.name = "samples_m",
+           .objects = ball_and_post(),
+           .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
+           .samples = 4});
+    check({.name = "samples_rm",
+           .objects = ball_and_post(),
+           .chosen = {Way::RasterizedRelief, Way::Mesh, Way::RasterizedRelief},
+           .samples = 4});
+}
+
+/// A hand-over from a mesh to a relief gives each pixel to one of them.
+TEST(Windows, FadeFromOneWayToAnother) {
+    WindowRig rig(as_one(ball_and_post()), std::array{Way::Mesh});
+    const scene::PlacedLevel mesh = rig.world.parts[0].level;
+    rig.world.choose(std::array{Way::RasterizedRelief});
+    const scene::PlacedLevel relief = rig.world.parts[0].level;
+    rig.pin({.middle_m = {0.15, 0.0}, .width_m = 0.075, .depth_m = 0.075});
+    const image::Image8 without = rig.world.picture(rig.view({}));
+    WindowCounts counts;
+    for (const double share : {0.0, 0.3, 0.7, 1.0}) {
+        const std::array<scene::Part, 2> fading = scene::fade(mesh, relief, share);
+        scene::move_behind(rig.pinned[0].view.window_from_prop, fading, rig.pinned[0].parts);
+        count_pixels(
+            WindowTruth(rig.table, rig.pinned), {.outline_px = 1.5}, without, rig.picture(), part_of,
+            [&](const glm::dvec3& from, const glm::dvec3& direction) { return rig.first(from, direction); },
+            counts);
+    }
+    EXPECT_GT(counts.shown, 1000U);
+    EXPECT_LE(counts.wrong, counts.windows() / 2000);
+    EXPECT_LT(counts.outline, counts.shown / 5);
+}
+
+/// Even light: the light that falls onto the table, times the picture's, is the same everywhere.
+TEST(Windows, AreAsBrightAsThePropEverywhere) {
+    for (const Way way : {Way::Mesh, Way::RasterizedRelief}) {
+        WindowRig rig(ball_and_post(), std::array{way, way, way});
+        std::mt19937 random(3);
+        rig.table.shuffle(random);
+        rig.pin_some(random, 4);
+        const scene::LightCompensation light;
+        const image::Image8 with = rig.picture(light);
+        const WindowTruth truth(rig.table, rig.pinned);
+        std::size_t compared = 0;
+        for (int y = 0; y < with.height; ++y) {
+            for (int x = 0; x < with.width; ++x) {
+                const glm::dvec2 pixel(x + 0.5, y + 0.5);
+                const LitPlace lit = truth.at(pixel);
+                const auto shown = [&](const glm::dvec2& at) {
+                    const LitPlace place = truth.at(at);
+                    const PropRay ray = truth.ray(lit.window, place.point);
+                    return place.window == lit.window ? rig.first(ray.from, ray.direction) : -1;
+                };
+                if (lit.window < 0) {
+                    continue;
+                }
+                const int part = shown(pixel);
+                if (part < 0 ||
+                    !truth.all_around(pixel, 2.5, [&](const glm::dvec2& at) { return shown(at) == part; })) {
+                    continue;
+                }
+                const glm::dvec3 path = lit.point - rig.table.table_from_projector.translation;
+                const double received = -path.z / std::pow(glm::length(path), 3.0);
+                const double linear = light.reference / received;
+                const double code = 255.0 * (1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+                EXPECT_NEAR(with.at(x, y)[part], code, 1.6) << x << ' ' << y << ' ' << static_cast<int>(way);
+                ++compared;
+            }
+        }
+        EXPECT_GT(compared, 100U);
+    }
+}
+
+TEST(Windows, CostNothingWhereThereAreNone) {
+    WindowRig rig(ball_and_post(), std::array{Way::Mesh, Way::RasterizedRelief, Way::DrawnRelief}, 4);
+    scene::FramePlan plain = scene::make_plan(rig.world.prop, 100'000, 3);
+    std::mt19937 random(1);
+    for (int pose = 0; pose < 8; ++pose) {
+        rig.table.shuffle(random);
+        const scene::PlanView view = rig.view({}, scene::LightCompensation{});
+        scene::plan_frame(rig.world.prop, rig.world.parts, view, rig.world.plan);
+        scene::plan_frame(rig.world.prop, rig.world.parts, view, plain);
+        EXPECT_EQ(rig.world.plan.window_count, 0U);
+        EXPECT_EQ(rig.world.plan.hash, plain.hash);
+        EXPECT_EQ(rig.world.plan.indices, plain.indices);
+        // With windows the prop's part of the plan is the same.
+        rig.pin_some(random, 2);
+        const std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
+        scene::plan_frame(rig.world.prop, rig.world.parts, rig.view(windows, scene::LightCompensation{}),
+                          rig.world.plan);
+        EXPECT_EQ(rig.world.plan.window_count, 2U);
+        EXPECT_EQ(rig.world.plan.prop_hash, plain.prop_hash);
+        EXPECT_NE(rig.world.plan.hash, plain.hash);
+        EXPECT_EQ(rig.world.plan.indices, plain.indices);
+        EXPECT_EQ(rig.world.plan.draws.size(), plain.draws.size());
+        EXPECT_EQ(rig.world.plan.lit.bounds(), plain.lit.bounds());
+        EXPECT_EQ(rig.world.plan.samples, plain.samples);
+        // A plan without room has none.
+        scene::plan_frame(rig.world.prop, rig.world.parts, rig.view(windows, scene::LightCompensation{}),
+                          plain);
+        EXPECT_EQ(plain.window_count, 0U);
+    }
+}
+
+/// One window more, the eye, the prop: what has changed is drawn again, and the picture is that of a whole redraw.
+TEST(Windows, PartialRedrawEqualsFullRedraw) {
+    for (const int samples : {1, 4}) {
+        for (const auto& chosen : {std::array{Way::Mesh, Way::Mesh, Way::Mesh},
+                                   std::array{Way::RasterizedRelief, Way::Mesh, Way::DrawnRelief}}) {
+            WindowRig whole(ball_and_post(), chosen, samples);
+            WindowRig changes(ball_and_post(), chosen, samples);
+            std::mt19937 random(7);
+            std::uniform_real_distribution<double> u(-1.0, 1.0);
+            whole.table.shuffle(random);
+            whole.pin_some(random, 2);
+            for (int k = 0; k < 24; ++k) {
+                switch (k % 6) {
+                case 0:
+                    whole.table.eye_m += 0.05 * glm::dvec3(u(random), u(random), 0.5 * u(random));
+                    break;
+                case 1:
+                case 2:
+                    whole.table.table_from_prop.translation += 0.02 * glm::dvec3(u(random), u(random), 0.0);
+                    break;
+                case 3:
+                    whole.pin_some(random, static_cast<std::size_t>(k / 6));
+                    break;
+                default:
+                    break; // nothing changes
+                }
+                changes.table = whole.table;
+                changes.pinned = whole.pinned;
+                const image::Image8 expected = whole.picture(scene::LightCompensation{});
+                const std::vector<scene::PlacedWindow> windows = placed(changes.pinned);
+                Interlocked& world = changes.world;
+                scene::plan_frame(world.prop, world.parts, changes.view(windows, scene::LightCompensation{}),
+                                  world.plan);
+                const render::DrawResult drawn = world.renderer->draw(
+                    world.plan, {world.display->framebuffer(), k == 0 ? 0 : world.display->buffer_age()});
+                EXPECT_EQ(drawn.drawn, k % 6 < 4) << k;
+                if (drawn.drawn) {
+                    EXPECT_TRUE(world.display->present(MonotonicTime{}));
+                }
+                const image::Image8 shown = render::read_colour(
+                    world.display->framebuffer(), world.display->width(), world.display->height());
+                const Difference found = difference(shown, expected);
+                EXPECT_EQ(found.pixels, 0U) << k << ", samples " << samples << ", by up to " << found.worst;
+                if (found.pixels > 0) {
+                    keep(shown, "shown_" + std::to_string(samples) + "_" + std::to_string(k));
+                    keep(expected, "expected_" + std::to_string(samples) + "_" + std::to_string(k));
+                }
+            }
+        }
+    }
+}
+
+TEST(Windows, AChangeOfOneRedrawsThatOneAlone) {
+    WindowRig rig(as_one(ball_and_post()), std::array{Way::Mesh}, 4);
+    for (const double side : {-1.0, 1.0}) {
+        rig.pin({.middle_m = {0.15 * side, 0.0}, .width_m = 0.05, .depth_m = 0.05});
+    }
+    static_cast<void>(rig.picture());
+    rig.pinned[1].parts[0].level.light = glm::vec3(0.5F);
+    const std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
+    scene::plan_frame(rig.world.prop, rig.world.parts, rig.view(windows), rig.world.plan);
+    const render::DrawResult drawn = rig.world.renderer->draw(
+        rig.world.plan, {rig.world.display->framebuffer(), rig.world.display->buffer_age()});
+    EXPECT_TRUE(drawn.drawn);
+    EXPECT_EQ(drawn.redrawn, scene::bounds_in_prop(rig.world.plan.windows[1]));
+    EXPECT_EQ(united(drawn.lit, scene::bounds_in_prop(rig.world.plan.windows[0])), drawn.lit);
+}
+
+/// A window covers what lies on the table, as the prop does, and neither covers a picture `on_prop`.
+TEST(Windows, CoverPicturesOnTheTable) {
+    WindowRig rig(as_one(ball_and_post()), std::array{Way::Mesh}, 4);
+    rig.pin({.middle_m = {0.14, 0.0}, .width_m = 0.07, .depth_m = 0.07});
+    const image::Image8 dark = rig.picture();
+    image::Image8 white(8, 8);
+    std::fill(white.texels.begin(), white.texels.end(), glm::u8vec4(255));
+    const scene::TextureId texture =
+        rig.world.renderer->store().upload_picture(std::vector{std::move(white)}).value();
+    const auto strip = [&](double y, bool on_prop) {
+        return scene::TablePicture{.corners_m = {glm::dvec3(0.09, y + 0.01, 0.0),
+                                                 {0.185, y + 0.01, 0.0},
+                                                 {0.185, y, 0.0},
+                                                 {0.09, y, 0.0}},
+                                   .texture = texture,
+                                   .on_prop = on_prop};
+    };
+    const std::array pictures{strip(0.01, false), strip(-0.02, true)};
+    const std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
+    scene::PlanView view = rig.view(windows);
+    view.on_table = pictures;
+    const image::Image8 lit = rig.world.picture(view);
+    const WindowTruth truth(rig.table, rig.pinned);
+    std::size_t covered = 0;
+    std::size_t on_window = 0;
+    std::size_t on_table = 0;
+    for (int y = 0; y < lit.height; ++y) {
+        for (int x = 0; x < lit.width; ++x) {
+            const LitPlace at = truth.at({x + 0.5, y + 0.5});
+            const auto in = [&](double low) {
+                return !at.prop && at.point.x > 0.092 && at.point.x < 0.183 && at.point.y > low + 0.002 &&
+                       at.point.y < low + 0.008;
+            };
+            const bool deep_in_window =
+                at.window >= 0 && truth.all_around({x + 0.5, y + 0.5}, 2.0, [&](const glm::dvec2& beside) {
+                    return truth.at(beside).window >= 0;
+                });
+            const bool empty = dark.at(x, y) == glm::u8vec4(0, 0, 0, 255);
+            if (in(0.01) && deep_in_window) {
+                ++covered;
+                EXPECT_EQ(lit.at(x, y), dark.at(x, y)) << x << ' ' << y;
+            } else if (in(-0.02) && deep_in_window && empty) {
+                ++on_window;
+                EXPECT_EQ(lit.at(x, y), glm::u8vec4(255)) << x << ' ' << y;
+            } else if ((in(0.01) || in(-0.02)) && at.window < 0 &&
+                       truth.all_around({x + 0.5, y + 0.5}, 2.0, [&](const glm::dvec2& beside) {
+                           return truth.at(beside).window < 0 && !truth.at(beside).prop;
+                       })) {
+                ++on_table;
+                EXPECT_EQ(lit.at(x, y), glm::u8vec4(255)) << x << ' ' << y;
+            }
+        }
+    }
+    EXPECT_GT(covered, 100U);
+    EXPECT_GT(on_window, 50U);
+    EXPECT_GT(on_table, 50U);
+}
+
+/// Each eye's part of the picture shows what that eye's rays meet.
+TEST(Windows, AreSeenByTwoEyes) {
+    for (const settings::Stereo stereo :
+         {settings::Stereo::SideBySide, settings::Stereo::TopBottom, settings::Stereo::Anaglyph}) {
+        StereoRig rig(scene::stereo_layout(table_of({}).projector, stereo));
+        const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
+        for (scene::FramePlan& plan : rig.plans) {
+            scene::make_window_space(plan, 2, rig.level.triangles->indices.size(), 1);
+        }
+        std::mt19937 random(9);
+        WindowCounts counts;
+        for (const scene::PlacedLevel& which : rig.part) {
+            rig.shuffle(random);
+            rig.table_from_head = {1.0, 0.0, 0.0, 0.0};
+            const scene::Part part{which, std::nullopt};
+            const auto first = [&](const glm::dvec3& from, const glm::dvec3& direction) {
+                return cast.first_hit(from, direction).found ? 0 : -1;
+            };
+            std::vector<Pinned> pinned;
+            for (const double side : {-1.0, 1.0}) {
+                pinned.emplace_back(
+                    rig.table, std::span(&part, 1),
+                    scene::WindowPlace{.middle_m = {0.15 * side, 0.0}, .width_m = 0.07, .depth_m = 0.07});
+            }
+            const std::vector<scene::PlacedWindow> windows = placed(pinned);
+            const std::array<glm::dvec3, 2> eyes = rig.eyes();
+            const auto draw = [&](std::span<const scene::PlacedWindow> shown) {
+                scene::PlanView view = rig.table.view();
+                view.windows = shown;
+                const std::array<scene::PlanView, 2> views = scene::views_of(rig.layout, view, eyes);
+                for (std::size_t eye = 0; eye < 2; ++eye) {
+                    scene::plan_frame(rig.prop, std::span(&part, 1), views[eye], rig.plans[eye]);
+                    rig.plans[eye].samples = std::min(rig.plans[eye].samples, 1);
+                }
+                return rig.drawn_plans();
+            };
+            const image::Image8 without = draw({});
+            const image::Image8 with = draw(windows);
+            for (std::size_t eye = 0; eye < 2; ++eye) {
+                const glm::bvec3& channels = rig.layout.pictures[eye].channels;
+                TestTable seen = rig.table;
+                seen.projector = rig.layout.pinhole;
+                seen.eye_m = eyes[eye];
+                count_pixels(
+                    WindowTruth(seen, pinned), {.outline_px = 1.5, .edge_px = 0.25},
+                    coloured(seen_by(eye, rig.layout, without), channels),
+                    coloured(seen_by(eye, rig.layout, with), channels),
+                    [](const glm::u8vec4& code) { return code.r + code.g + code.b > 30 ? 0 : -1; }, first,
+                    counts);
+            }
+        }
+        EXPECT_GT(counts.shown, 1000U);
+        EXPECT_LE(counts.wrong, counts.windows() / 2000) << settings::name_of(stereo);
+        EXPECT_LT(counts.outline + counts.edge, counts.windows() / 10);
+    }
+}
+
+TEST(Windows, AFrameAllocatesNothing) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    for (const auto& chosen : {std::array{Way::RasterizedRelief, Way::Mesh, Way::RasterizedRelief},
+                               std::array{Way::Mesh, Way::DrawnRelief, Way::Mesh}}) {
+        WindowRig rig(ball_and_post(), chosen, 4);
+        std::mt19937 random(5);
+        rig.table.shuffle(random);
+        rig.pin_some(random, 2);
+        const std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
+        std::vector<TestTable> tables;
+        for (int k = 0; k < 4; ++k) {
+            rig.table.shuffle(random);
+            tables.push_back(rig.table);
+        }
+        long counted = 0;
+        for (int k = 0; k < 20; ++k) { // the first rounds reserve memory for the fullest view
+            scene::PlanView view = tables[static_cast<std::size_t>(k) % tables.size()].view();
+            view.light = scene::LightCompensation{};
+            view.windows = windows;
+            const long before = allocations_so_far();
+            scene::plan_frame(rig.world.prop, rig.world.parts, view, rig.world.plan);
+            static_cast<void>(rig.world.renderer->draw(
+                rig.world.plan, {rig.world.display->framebuffer(), rig.world.display->buffer_age()},
+                render::Redraw::Everything));
+            counted += k < 16 ? 0 : allocations_so_far() - before;
+        }
+        EXPECT_EQ(counted, 0);
+    }
+}
+
+/// On the window's plane, behind it, straight above, at the picture's edge and beyond: no pixel beside the window is lit.
+TEST(Windows, AreDarkFromBehind) {
+    for (const Way way : ways) {
+        WindowRig rig(as_one(ball_and_post()), std::array{way});
+        rig.pin({.middle_m = {0.14, 0.0}, .width_m = 0.07, .depth_m = 0.07});
+        for (const glm::dvec3& eye : {glm::dvec3(0.3, 0.0, 0.0), glm::dvec3(0.3, 0.1, -0.2),
+                                      glm::dvec3(0.14, 0.0, 0.0), glm::dvec3(0.3, 0.0, 1e-12)}) {
+            rig.table.eye_m = eye;
+            const scene::PlacedLevel nothing;
+            const std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
+            const scene::Part none{nothing, std::nullopt};
+            const image::Image8 shown = rig.world.picture(rig.view(windows), std::span(&none, 1));
+            EXPECT_EQ(lit_pixels(shown), 0U) << eye.x << ' ' << eye.z << ' ' << static_cast<int>(way);
+        }
+        rig.table.eye_m = {0.14, 0.0, 0.5};
+        EXPECT_GT(lit_pixels(rig.picture()), 500U);
+    }
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
