@@ -5,6 +5,7 @@
 #include "app/scene/window_plan.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -140,12 +141,18 @@ void WindowShow::aim(const exhibit::PresentedWindow& window, Held& held) const {
 }
 
 WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
+                                      const exhibit::PresentedWindows& presented,
                                       const residency::ArtifactCache& cache) {
-    auto found = std::find_if(held_.begin(), held_.end(),
-                              [&](const Held& held) { return held.number == window.number; });
-    if (found == held_.end()) { // in the place of the oldest
-        found = std::min_element(held_.begin(), held_.end(),
-                                 [](const Held& a, const Held& b) { return a.number < b.number; });
+    const auto is_presented = [&](const Held& held) {
+        const auto all = presented.windows();
+        return std::any_of(all.begin(), all.end(),
+                           [&](const auto& one) { return one.number == held.number; });
+    };
+    auto* found = std::find_if(held_.begin(), held_.end(),
+                               [&](const Held& held) { return held.number == window.number; });
+    if (found == held_.end()) { // in the place of one that has gone: there are as many places as windows
+        found = std::find_if_not(held_.begin(), held_.end(), is_presented);
+        assert(found != held_.end());
         found->number = window.number;
         found->comings = 0;
         found->is_aimed = false;
@@ -162,7 +169,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
                                                        const residency::ArtifactCache& cache) {
     std::size_t count = 0;
     for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
-        Held& held = held_of(window, cache);
+        Held& held = held_of(window, presentation.windows, cache);
         held.lost = held.lost || cache.find(window.artifact) == nullptr;
         if (held.lost || window.comings == 0) {
             continue;

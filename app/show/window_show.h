@@ -66,6 +66,7 @@ private:
         bool is_aimed = false;
     };
     [[nodiscard]] Held& held_of(const exhibit::PresentedWindow& window,
+                                const exhibit::PresentedWindows& presented,
                                 const residency::ArtifactCache& cache);
     void freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                 Held& held) const;
