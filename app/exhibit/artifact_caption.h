@@ -37,6 +37,11 @@ public:
     /// 0: the caption has no place. 0..1
     [[nodiscard]] double opacity(MonotonicTime now) const { return placer_.at(now).opacity; }
 
+    /// Its place, also while it is still dark; without size: none.
+    [[nodiscard]] typography::TableRectangle place(MonotonicTime now) const {
+        return placer_.at(now).rectangle;
+    }
+
 private:
     typography::CaptionPlacer placer_;
     const std::vector<glm::dvec2>* placed_ = nullptr; ///< the sizes that `placer_` has been given

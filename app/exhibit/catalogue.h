@@ -11,6 +11,7 @@
 #include "app/exhibit/sentences.h"
 #include "app/exhibit/table_browser.h"
 #include "app/exhibit/torch_lights.h"
+#include "app/exhibit/window_desk.h"
 #include "app/exhibit/zone_frame.h"
 #include "app/geometry/prop_shape.h"
 #include "app/guidance/guide.h"
@@ -61,6 +62,7 @@ struct ExhibitPlace {
     bool staff_stays = false;                        ///< there is no calibration: as StaffTool
     bool table_pictures = false;                     ///< the set's artifacts lie on the table to choose from
     std::optional<TorchPlace> torch;                 ///< none: there is no torch
+    std::optional<WindowPlace> windows;              ///< none: none can be pinned
     Nanoseconds rest = std::chrono::seconds(60);     ///< time without a visitor before State::Attract
 };
 

@@ -11,7 +11,9 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
       selection_(make_selection(catalogue_.all(), language, now)), staff_(place.staff_stays),
       table_(lay_out_catalogue(catalogue_.all(), place)), caption_(place.picture_m), labels_(place.picture_m),
       guide_(place.guidance), advice_(place.words, place.picture_m), title_(place.picture_m),
-      torches_(place.torch ? std::optional<TorchLights>(*place.torch) : std::nullopt) {}
+      torches_(place.torch ? std::optional<TorchLights>(*place.torch) : std::nullopt),
+      windows_(place.windows ? std::optional<WindowDesk>(std::in_place, *place.windows, place.picture_m)
+                             : std::nullopt) {}
 
 Presentation Exhibit::step(MonotonicTime now, std::span<const settings::Command> commands,
                            const tracking::TrackedState& tracked_state) {
@@ -80,6 +82,9 @@ void Exhibit::take_chord(MonotonicTime now) {
     for (const std::size_t button : {std::size_t{0}, place_.buttons - 1}) {
         if (presses_.undo(button)) {
             selection_.undo(settings::button_commands[button], now);
+            if (windows_ && settings::button_commands[button] == settings::Command::Window) {
+                windows_->undo_pin();
+            }
         }
     }
     if (state_ == State::Staff) {
@@ -101,6 +106,9 @@ Observed Exhibit::observe(MonotonicTime now, const tracking::TrackedState& track
     seen.nothing_to_show = !catalogue_.offers_something();
     seen.tracker_lost = idle_pose_->lost();
     step_table(now, tracked_state, drawn, seen);
+    const Obstacles lying = lying_on_table();
+    caption_.set_obstacles(lying.all());
+    advice_.set_obstacles(lying.all());
     step_objects(now, tracked_state, pressed, seen);
     step_guide(now, tracked_state, drawn);
     seen.narration_sequencer = tells();
@@ -135,8 +143,6 @@ void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracke
     if (table_->chose()) {
         presses_.end_choose();
     }
-    caption_.set_obstacles(table_->obstacles());
-    advice_.set_obstacles(table_->obstacles());
 }
 
 /// Pictures on the table come first: a prop that is on one rests before no object.

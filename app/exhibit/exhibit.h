@@ -16,6 +16,7 @@
 ///          (object_dwell.h). The caller says which object that is (note_object).
 /// Torch    while one is held, two buttons are its: "choose" changes what it throws, and "behaviour" leaves its light on the
 ///          object. Both do what they do otherwise while the prop rests on a picture or before an object.
+/// Windows  a button pins what is seen through the prop onto the table (window_desk.h).
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
 /// Threads  values; one caller. `step` allocates nothing.
@@ -45,6 +46,7 @@
 #include "app/exhibit/table_browser.h"
 #include "app/exhibit/torch_lights.h"
 #include "app/exhibit/visitor_guide.h"
+#include "app/exhibit/window_desk.h"
 #include "app/settings/command.h"
 #include "app/tracking/tracked_state.h"
 #include "app/typography/visitor_side.h"
@@ -183,6 +185,14 @@ private:
     [[nodiscard]] std::optional<TitleIndex> content_title(const CatalogueEntry& entry, std::size_t artifact,
                                                           std::size_t language, glm::dvec2& size_m) const;
 
+    // Windows: exhibit_windows.cpp.
+    void step_windows(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
+                      const DrawnPose& drawn, Presentation& presentation);
+    /// What captions and signs keep clear of: pictures to choose from, and windows.
+    [[nodiscard]] Obstacles lying_on_table() const;
+    /// The line that says once in a visit what the button does; none: nothing.
+    [[nodiscard]] std::optional<WordIndex> window_word() const;
+
     // Behaviours: exhibit_behaves.cpp.
     void behave(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                 const DrawnPose& drawn, bool pressed, Presentation& presentation);
@@ -225,6 +235,11 @@ private:
     TorchAdvice torch_advice_;
     std::optional<TorchAim> torch_says_;               ///< what is wrong with the torch's aim
     bool next_content_ = false, leaves_light_ = false; ///< pressed in this step
+
+    std::optional<WindowDesk> windows_;        ///< none: none can be pinned
+    std::optional<MonotonicTime> visit_began_; ///< of the visitor who is there
+    bool has_pinned_ = false;                  ///< in this visit
+    bool invites_to_pin_ = false;
 };
 
 } // namespace frustumscreen::exhibit

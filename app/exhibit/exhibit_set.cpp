@@ -37,6 +37,7 @@ void Exhibit::dim_what_leaves(MonotonicTime now, Presentation& presentation) con
     presentation.settled = false;
     presentation.brightness *= share;
     presentation.artifact_light *= share;
+    presentation.windows.dim(share);
     const auto dim = [share](auto& part) {
         if (part && share > 0.0) {
             part->brightness *= share;
@@ -59,6 +60,9 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     Catalogue before = catalogue_.exchange(std::move(catalogue));
     if (torches_) {
         torches_.emplace(*place_.torch); // what was left on belongs to the set
+    }
+    if (windows_) {
+        windows_.emplace(*place_.windows, place_.picture_m);
     }
     selection_ = make_selection(catalogue_.all(), first_language_, now);
     const std::vector<std::string> languages = languages_of(catalogue_.all());

@@ -31,6 +31,7 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     }
     presentation.hotspot = label(now, shown, tracked_state, drawn, presentation);
     behave(now, tracked_state, shown, drawn, pressed, presentation);
+    step_windows(now, tracked_state, shown, drawn, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
     presentation.title_brightness = shown.language_brightness;
@@ -43,9 +44,9 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     presentation.attracts = drawn.attracts;
     const double opacity = caption_.opacity(now);
     const bool table_changes = table_ && table_->presented().changing;
-    presentation.settled = !table_changes && !labels_.changing() && !shown.changing && !drawn.changing &&
-                           !waits() && !narrator_.text().changing && !title_.changing() &&
-                           (opacity <= 0.0 || opacity >= 1.0);
+    presentation.settled = !(windows_ && windows_->changing()) && !table_changes && !labels_.changing() &&
+                           !shown.changing && !drawn.changing && !waits() && !narrator_.text().changing &&
+                           !title_.changing() && (opacity <= 0.0 || opacity >= 1.0);
     dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
     presentation.staff_view = staff_.shown();
@@ -73,6 +74,11 @@ WantedArtifacts Exhibit::wanted() const {
     }
     wanted.add(selection_.next());
     wanted.add(selection_.previous());
+    if (windows_) {
+        for (const PresentedWindow& window : windows_->presented().windows()) {
+            wanted.add(window.artifact);
+        }
+    }
     return wanted;
 }
 
@@ -138,12 +144,7 @@ std::optional<PresentedCaption> Exhibit::caption(MonotonicTime now, const Shown&
 }
 
 Exhibit::Obstacles Exhibit::obstacles_of(const Presentation& presentation) const {
-    Obstacles obstacles;
-    if (table_) {
-        for (const typography::TableRectangle& place : table_->obstacles()) {
-            obstacles.add(place);
-        }
-    }
+    Obstacles obstacles = lying_on_table();
     if (presentation.caption) {
         obstacles.add(presentation.caption->rectangle);
     }
@@ -228,7 +229,7 @@ std::optional<WordIndex> Exhibit::word() const {
     case Words::NarrationSequencer:
         break;
     case Words::None:
-        return torch_word();
+        return torch_says_ ? torch_word() : window_word();
     }
     return std::nullopt;
 }
@@ -270,6 +271,7 @@ std::uint32_t Exhibit::lamps() const {
     const bool behaves = entry != nullptr && BehaviourTriggers::next(entry->behaviours, 0);
     lamps |= behaves ? 1U << settings::button_of(settings::Command::Behaviour) : 0U;
     lamps |= torch_lamps();
+    lamps |= windows_ && windows_->can_pin() ? 1U << settings::button_of(settings::Command::Window) : 0U;
     lamps |= helps ? 1U << settings::button_of(settings::Command::Help) : 0U;
     return lamps;
 }

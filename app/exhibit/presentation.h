@@ -12,6 +12,7 @@
 #include "app/exhibit/notice_place.h"
 #include "app/exhibit/object_dwell.h"
 #include "app/exhibit/placeholder.h"
+#include "app/exhibit/presented_windows.h"
 #include "app/exhibit/sentences.h"
 #include "app/exhibit/staff_tool.h"
 #include "app/exhibit/states.h"
@@ -39,7 +40,7 @@ struct PresentedCaption {
 };
 
 /// Artifacts that a visitor may see next, most urgent first: the chosen one, the one whose picture the prop rests on,
-/// the next, the previous. Some may be equal.
+/// the next, the previous; and those that windows show. Some may be equal.
 class WantedArtifacts {
 public:
     void add(std::size_t artifact) { artifacts_.at(count_++) = artifact; }
@@ -48,7 +49,7 @@ public:
     }
 
 private:
-    std::array<std::size_t, 4> artifacts_{};
+    std::array<std::size_t, 4 + settings::max_windows + 1> artifacts_{};
     std::size_t count_ = 0;
 };
 
@@ -75,6 +76,7 @@ struct Presentation {
     BehaviourEvents behaviours;               ///< that begin or end in this step
     std::optional<PresentedTitle> title;      ///< what the button for behaviours does now
     PresentedTorches torches;                 ///< what torches throw onto the artifact
+    PresentedWindows windows;                 ///< that lie on the table
     std::optional<RoomObject> before;         ///< the object of the room that the prop has settled before
     const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
     std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit

@@ -19,6 +19,7 @@ public:
         choose_ = choose_ || (counts && command == settings::Command::Choose);
         help_ = help_ || (counts && command == settings::Command::Help);
         behaviour_ = behaviour_ || (counts && command == settings::Command::Behaviour);
+        window_ = window_ || (counts && command == settings::Command::Window);
     }
     /// No chord undoes this press.
     void forget(settings::Command command) { at(command) = false; }
@@ -34,6 +35,8 @@ public:
     void end_help() { help_ = false; }
     /// True if a behaviour is requested; the next call returns false.
     [[nodiscard]] bool take_behaviour() { return std::exchange(behaviour_, false); }
+    /// True if a window is to be pinned; the next call returns false.
+    [[nodiscard]] bool take_window() { return std::exchange(window_, false); }
 
 private:
     [[nodiscard]] bool& at(settings::Command command) {
@@ -45,6 +48,7 @@ private:
     bool choose_ = false;
     bool help_ = false;
     bool behaviour_ = false;
+    bool window_ = false;
 };
 
 } // namespace frustumscreen::exhibit

@@ -25,6 +25,7 @@
 #include "app/residency/loaded.h"
 #include "app/residency/prepared_artifact.h"
 #include "app/residency/residency.h"
+#include "app/settings/settings.h"
 
 #include <array>
 #include <cstdint>
@@ -127,7 +128,8 @@ private:
         [[nodiscard]] std::span<const std::size_t> items() const { return std::span(items_).first(count_); }
 
     private:
-        std::array<std::size_t, 8 + pack::max_languages> items_{};
+        /// Beside them the shown and the wanted artifacts with their texts (exhibit::WantedArtifacts).
+        std::array<std::size_t, 8 + 2 * (settings::max_windows + 1) + pack::max_languages> items_{};
         std::size_t count_ = 0;
     };
 

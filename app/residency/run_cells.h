@@ -82,6 +82,11 @@ public:
     [[nodiscard]] std::uint64_t switches() const { return switches_; }
     /// The plan of each eye's latest picture.
     [[nodiscard]] std::span<const scene::FramePlan> plans() const { return plans_; }
+    [[nodiscard]] std::span<scene::FramePlan> plans() { return plans_; }
+    /// What the latest picture showed of the cells, prop frame; empty: it showed the whole artifact.
+    [[nodiscard]] std::span<const scene::Part> parts() const {
+        return shows_ && !is_new_ ? std::span<const scene::Part>(parts_) : std::span<const scene::Part>();
+    }
 
 private:
     struct Option {

@@ -130,6 +130,8 @@ public:
     [[nodiscard]] render::DrawResult draw(MonotonicTime now, const geometry::PropShape& prop,
                                           std::span<const scene::PlanView> views, render::Renderer& renderer,
                                           const render::RenderTarget& target, render::Redraw redraw);
+    /// The plan of each eye's picture, to lend it room for windows.
+    [[nodiscard]] std::span<scene::FramePlan> plans() { return plans_; }
     /// The level that `draw` draws, without its fade.
     [[nodiscard]] scene::PlacedLevel shown() const { return placed(shown_); }
     /// Records that the latest `draw` took `ms` until its picture was complete.

@@ -396,9 +396,9 @@ Result<ScenePlan> plan_scene(const settings::Settings& settings, const pack::Pac
                   pixel_m / plan.metres_per_box, asked, {std::move(reliefs), std::move(seen.reliefs)}, plan);
     choose_captions(settings, pack, request, plan);
     choose_shaders(request,
-                   request.live &&
-                       (settings::shows_zone_frame(settings) || settings::guides_visitors(settings) ||
-                        request.table_pictures || settings::tells_of_sticks(settings)),
+                   request.live && (settings::shows_zone_frame(settings) ||
+                                    settings::guides_visitors(settings) || request.table_pictures ||
+                                    settings::tells_of_sticks(settings) || settings.windows.exist()),
                    plan);
     choose_faces(plan);
     plan.needs.outline = largest_outline(settings, plan.projector, plan.visibility);

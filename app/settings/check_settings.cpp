@@ -393,6 +393,24 @@ void check_torch(const Settings& settings, Fitness& fitness) {
     check_torch_source(settings, fitness);
 }
 
+/// A window must fit into the lit table, with the prop beside it.
+void check_windows(const Settings& settings, Fitness& fitness) {
+    const WindowSettings& windows = settings.windows;
+    if (!windows.exist()) {
+        return;
+    }
+    const Rectangle lit = rectangle_inside(picture_on_table(settings, 0.0));
+    const double width_m = 2.0 * lit.half_m.x, depth_m = 2.0 * lit.half_m.y;
+    const bool fits_along = windows.width_m + settings.prop.base_m <= width_m && windows.depth_m <= depth_m;
+    const bool fits_behind = windows.depth_m + settings.prop.base_m <= depth_m && windows.width_m <= width_m;
+    const bool is_wide = windows.width_m >= windows.depth_m;
+    fitness.require(
+        "settings.window_size", fits_along || fits_behind, is_wide ? "windows.width_m" : "windows.depth_m",
+        fmt::format("is {}; a window must lie beside the prop, {} metres wide, in the lit part of the "
+                    "table, {:.2f} x {:.2f} metres; make windows smaller",
+                    is_wide ? windows.width_m : windows.depth_m, settings.prop.base_m, width_m, depth_m));
+}
+
 /// Two keys of the same name would make messages ambiguous.
 void check_keys(const Settings& settings, Fitness& fitness) {
     std::set<std::string_view> names;
@@ -442,6 +460,7 @@ std::optional<Error> unfit(const Settings& settings, const std::string& file, co
     check_devices(settings, fitness);
     check_camera(settings, fitness);
     check_torch(settings, fitness);
+    check_windows(settings, fitness);
     check_sound(settings, fitness);
     check_keys(settings, fitness);
     check_hours(settings, fitness);

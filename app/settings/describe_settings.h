@@ -10,6 +10,7 @@
 
 #include "app/settings/command.h"
 #include "app/settings/describe_torch.h"
+#include "app/settings/describe_windows.h"
 #include "app/settings/display_mode.h"
 #include "app/settings/language_tag.h"
 #include "app/settings/looking_at.h"
@@ -326,7 +327,8 @@ void calibration_settings(auto& fields, auto& calibration) {
 void press_settings(auto& fields, auto& press) {
     fields.number("at_s", press.at_s, {0.0, longest_script_s, "seconds"}, "time after the script begins");
     fields.integer("button", press.button, 0, static_cast<int>(button_commands.size()) - 1,
-                   "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help, 5 behaviour");
+                   "0 previous artifact, 1 next artifact, 2 language, 3 choose, 4 help, 5 behaviour, "
+                   "6 window");
 }
 
 void panel_settings(auto& fields, auto& panel) {
@@ -535,6 +537,10 @@ void all_settings(auto& file, auto& settings) {
           [&](auto& fields) { screen_settings(fields, settings.screen); });
     table("torch", "A lamp in the hand that throws information onto the artifact ([torch.md](torch.md)).",
           [&](auto& fields) { torch_settings(fields, settings.torch); });
+    table("windows",
+          "Windows that visitors pin onto the table: each keeps what was seen through the prop "
+          "([windows.md](windows.md)).",
+          [&](auto& fields) { window_settings(fields, settings.windows); });
     table("tracker", "The tracker of the prop, of the visitor's head and of the torch.",
           [&](auto& fields) { tracker_settings(fields, settings.tracker); });
     table("calibration", "The measured projector and tracker.",

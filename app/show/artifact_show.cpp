@@ -75,6 +75,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const settings::Setti
     }
     TRY_VOID(show->renderer_.prepare(show->needs_));
     TRY_VOID(show->upload_set(options.other_sets));
+    if (show->windows_) {
+        show->windows_->make_space(*show->set_->artifact_cache);
+    }
     show->notes_ = show->set_->notes;
     show->note_language(settings);
     show->measure(settings, target, options.other_sets);
@@ -96,6 +99,10 @@ Result<void> ArtifactShow::upload_what_stays(const settings::Settings& settings)
         torches_.emplace(settings.torch);
         TRY_VOID(torches_->prepare(renderer_.store()));
     }
+    if (settings.windows.exist()) {
+        windows_.emplace(settings, prop_, layout_.count);
+        TRY_VOID(windows_->prepare(renderer_.store()));
+    }
     return upload_signs(settings);
 }
 
@@ -115,7 +122,7 @@ Result<void> ArtifactShow::upload_set(bool hotspots) {
 std::uint64_t ArtifactShow::planned_bytes_that_stay() const {
     return (white_ != scene::TextureId::None ? scene::caption_gpu_bytes(1, 1) : 0) + planned_sign_bytes_ +
            hotspots_.planned_gpu_bytes() + notice_.planned_gpu_bytes() + marks_.planned_gpu_bytes() +
-           (torches_ ? torches_->planned_gpu_bytes() : 0);
+           (torches_ ? torches_->planned_gpu_bytes() : 0) + (windows_ ? windows_->planned_gpu_bytes() : 0);
 }
 
 void ArtifactShow::note_language(const settings::Settings& settings) {
@@ -196,11 +203,16 @@ void ArtifactShow::warm_up(scene::PlanView view, std::span<const glm::dvec3> eye
     if (torches_) {
         view.torches = torches_->sample(attract_place_m_);
     }
+    residency::RunLevels& levels = *set_->artifact_cache->find(0);
+    if (windows_) {
+        view.windows = windows_->sample(levels.shown(), attract_place_m_, eyes_m.front());
+    }
+    const LentSpace lent(windows_ ? &*windows_ : nullptr, levels.plans());
     render::RenderTarget drawn = target;
     for (const render::Redraw redraw : {render::Redraw::Everything, render::Redraw::Changes}) {
         const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
-        static_cast<void>(set_->artifact_cache->find(0)->draw(
-            {}, prop_, std::span(views).first(layout_.count), renderer_, drawn, redraw));
+        static_cast<void>(
+            levels.draw({}, prop_, std::span(views).first(layout_.count), renderer_, drawn, redraw));
         drawn.buffer_age = 1;
         view.table_from_prop.translation.x += warm_up_step_m;
     }
@@ -260,6 +272,9 @@ std::unique_ptr<ShownSet> ArtifactShow::exchange(std::unique_ptr<ShownSet> set) 
     past_ignored_times_ += set_->artifact_cache->ignored_times();
     std::swap(set_, set);
     on_.reset();
+    if (windows_) {
+        windows_->make_space(*set_->artifact_cache);
+    }
     keep_names();
     return set;
 }
@@ -399,6 +414,11 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     if (torches_) {
         torches_->place_spots(presentation, on_table_);
     }
+    WindowShow* const windows = windows_ ? &*windows_ : nullptr;
+    if (windows != nullptr) {
+        view.windows = windows->place(presentation, eyes_m, artifact_cache);
+        windows->place_frames(presentation, caption_brightness_, on_table_);
+    }
     place_zone_frame(presentation);
     set_->table.place(
         presentation,
@@ -418,6 +438,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     residency::RunLevels* const levels = artifact_cache.find(presentation.artifact);
     if (levels == nullptr) {
         on_.reset();
+        const LentSpace lent(windows, dark_);
         for (std::size_t eye = 0; eye < layout_.count; ++eye) {
             scene::plan_frame(prop_, scene::PlacedLevel{}, views[eye], dark_[eye]);
         }
@@ -435,9 +456,11 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
         play(now, presentation.behaviours, cells->player());
     }
     if (cells != nullptr && cells->step(now, load_)) {
+        const LentSpace lent(windows, cells->plans());
         return cells->draw(now, levels->shown(), prop_, std::span(views).first(layout_.count), renderer_,
                            target, redraw);
     }
+    const LentSpace lent(windows, levels->plans());
     return levels->draw(now, prop_, std::span(views).first(layout_.count), renderer_, target, redraw);
 }
 

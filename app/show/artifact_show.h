@@ -22,6 +22,7 @@
 #include "app/show/show.h"
 #include "app/show/shown_set.h"
 #include "app/show/torch_show.h"
+#include "app/show/window_show.h"
 #include "firmware_host/base/result.h"
 
 #include <filesystem>
@@ -177,6 +178,7 @@ private:
     NoticeTextures notice_;
     MarkShow marks_;
     std::optional<TorchShow> torches_;     ///< none: there is no torch
+    std::optional<WindowShow> windows_;    ///< none: none can be pinned
     std::optional<drift::ShownMark> mark_; ///< of this frame
     std::vector<glm::dvec2> picture_m_;    ///< the part of the table that the projector's picture covers
     residency::OnTable on_table_;

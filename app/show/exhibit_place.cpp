@@ -57,6 +57,10 @@ exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
     if (settings.torch.exists()) {
         place.torch = torch_place(settings.torch);
     }
+    if (settings.windows.exist()) {
+        place.windows = {.count = settings.windows.count,
+                         .size_m = {settings.windows.width_m, settings.windows.depth_m}};
+    }
     place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
     return place;
 }

@@ -75,6 +75,11 @@ public:
         if (presentation.title) {
             lit_.add(presentation.title->rectangle);
         }
+        for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
+            if (window.brightness > 0.0) {
+                lit_.add(window.rectangle);
+            }
+        }
         if (presentation.table != nullptr) {
             for (const exhibit::PlacedPicture& picture : presentation.table->pictures()) {
                 (picture.brightness > 0.0 ? lit_ : empty_).add(picture.place.whole());

@@ -25,8 +25,8 @@ double unit_px(const typography::PatternScene& scene) {
 }
 
 std::string circled(std::size_t button, const exhibit::StaffView& view) {
-    constexpr std::array open{"\u2460", "\u2461", "\u2462", "\u2463", "\u2464", "\u2465"};
-    constexpr std::array full{"\u2776", "\u2777", "\u2778", "\u2779", "\u277a", "\u277b"};
+    constexpr std::array open{"\u2460", "\u2461", "\u2462", "\u2463", "\u2464", "\u2465", "\u2466"};
+    constexpr std::array full{"\u2776", "\u2777", "\u2778", "\u2779", "\u277a", "\u277b", "\u277c"};
     return view.pressed == button ? full.at(button) : open.at(button);
 }
 

@@ -78,7 +78,7 @@ public:
 
     /// Other things on the table, which captions avoid. At most `max_obstacles`.
     void set_obstacles(std::span<const TableRectangle> obstacles);
-    static constexpr std::size_t max_obstacles = 16;
+    static constexpr std::size_t max_obstacles = 24;
     static constexpr std::size_t max_shapes = 6;
 
     /// `shadow` and `hidden`: `hidden_by_prop` from the lens and from the eye. `quarter_turns`: the reader's

@@ -55,6 +55,7 @@ constexpr auto keys = std::to_array<std::string_view>({
     "advice.show_your_head",
     "advice.point_lamp",
     "advice.lamp_closer",
+    "advice.pin_window",
     "stick.found",
     "stick.copying",
     "stick.take_out",

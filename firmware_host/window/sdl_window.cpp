@@ -232,7 +232,7 @@ void SdlWindow::moved(const SDL_MouseMotionEvent& motion) {
 void SdlWindow::pressed(SDL_Keycode key, MonotonicTime now) {
     if (key == SDLK_ESCAPE) {
         std::raise(SIGTERM);
-    } else if (key >= SDLK_1 && key <= SDLK_6) {
+    } else if (key >= SDLK_1 && key <= SDLK_7) {
         presses_.push_back({now, static_cast<int>(key - SDLK_1), panel::PressKind::Press});
     } else if (key == SDLK_h) {
         helps_ = !helps_;

@@ -35,7 +35,7 @@ public:
         const double dice = random_.between(0.0, 1.0);
         if (dice < 0.02) {
             commands_.push_back(
-                settings::button_commands.at(static_cast<std::size_t>(random_.between(0.0, 5.999))));
+                settings::button_commands.at(static_cast<std::size_t>(random_.between(0.0, 6.999))));
         } else if (dice < 0.022) {
             commands_.push_back(settings::Command::StaffMode);
         } else if (dice < 0.03) {
@@ -69,6 +69,7 @@ public:
         }
         EXPECT_EQ(shown_.state, State::Attract);
         EXPECT_EQ(shown_.language, languages.front());
+        EXPECT_TRUE(shown_.windows.windows().empty());
     }
 
     std::array<long, state_count> visits{};
@@ -79,6 +80,7 @@ public:
     long toggled = 0;
     long begun_or_ended = 0;
     long titled = 0;
+    long pinned = 0;
 
 private:
     Nanoseconds time_to_pass() {
@@ -267,6 +269,13 @@ private:
         EXPECT_NE(shown_.lamps & 4U, 0U);
         ASSERT_NE(shown_.table, nullptr);
         EXPECT_TRUE(a_share(shown_.table->ring_full));
+        EXPECT_LE(shown_.windows.windows().size(), settings::max_windows + 1);
+        for (const PresentedWindow& window : shown_.windows.windows()) {
+            EXPECT_TRUE(a_share(window.brightness));
+            EXPECT_LT(window.artifact, artifacts);
+            EXPECT_TRUE(finite(glm::dvec3(window.rectangle.centre_m, 0.0)));
+            pinned += window.brightness >= 1.0 ? 1 : 0;
+        }
     }
 
     ExhibitPlace walked_ = walked_place();
@@ -310,6 +319,7 @@ TEST(Walk, EventsFindNothingThatMustNotBe) {
     EXPECT_GT(walk.toggled, 100);
     EXPECT_GT(walk.begun_or_ended, 100);
     EXPECT_GT(walk.titled, 100);
+    EXPECT_GT(walk.pinned, 100);
 }
 
 /// Frames that fall anywhere in the fades find the words, or one frame between the two languages does not.

@@ -43,6 +43,7 @@ inline ExhibitPlace walked_place() {
     }
     place.table_pictures = true;
     place.buttons = settings::button_commands.size();
+    place.windows = {.count = 2, .size_m = {0.08, 0.08}};
     place.rest = std::chrono::seconds(20);
     return place;
 }

@@ -66,7 +66,7 @@ TEST(SettingsPage, HasTheRangesThatHold) {
         }
     }
     EXPECT_GT(ranges, 45);
-    EXPECT_NE(refusal("[panel]\nscript = [{ button = 6 }]").find("whole numbers 0 to 5"), std::string::npos);
+    EXPECT_NE(refusal("[panel]\nscript = [{ button = 7 }]").find("whole numbers 0 to 6"), std::string::npos);
 }
 
 /// A missing key has the page's default.
@@ -74,7 +74,7 @@ TEST(SettingsPage, HasTheDefaultsThatHold) {
     const std::string page = settings_page();
     EXPECT_NE(page.find("| `base_m` | `0.3` | 0.02 to 2 metres |"), std::string::npos);
     EXPECT_EQ(parsed("").prop.base_m, 0.3);
-    EXPECT_NE(page.find("| `script[].button` | `1` | whole numbers 0 to 5 |"), std::string::npos);
+    EXPECT_NE(page.find("| `script[].button` | `1` | whole numbers 0 to 6 |"), std::string::npos);
 }
 
 } // namespace

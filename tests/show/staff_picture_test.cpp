@@ -1,6 +1,7 @@
 // The staff's pages: another program (zbarimg, of the ZBar project) reads their QR code, and no word overlaps
 // anything.
 
+#include "app/settings/command.h"
 #include "app/show/exhibit_place.h"
 #include "app/show/qr_code.h"
 #include "app/show/staff_picture.h"
@@ -150,7 +151,7 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
                            "what else there is to say of them");
     for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1920, 1200)}) {
         set_size(width, height);
-        for (std::size_t buttons = 2; buttons <= 6; ++buttons) {
+        for (std::size_t buttons = 2; buttons <= settings::button_commands.size(); ++buttons) {
             facts.buttons = buttons;
             facts.stereo = buttons % 2 == 0; // has sentences of its own
             facts.measures_pixels = !facts.stereo;

@@ -16,7 +16,7 @@ constexpr std::array<std::pair<const char*, const char*>, 8> lines{{
     {"drag", "slide the prop, in either half"},
     {"wheel, right drag", "turn the prop"},
     {"middle drag", "move the visitor's eye"},
-    {"1 to 6", "buttons: previous, next, language, choose, help, behaviour"},
+    {"1 to 7", "buttons: previous, next, language, choose, help, behaviour, window"},
     {"H", "this help"},
     {"Esc", "end"},
 }};

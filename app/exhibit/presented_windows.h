@@ -1,0 +1,49 @@
+/// The windows that lie on the table, as plain values: each keeps what was seen through the prop when it was pinned.
+///
+/// Frames   table T, metres.
+/// Threads  values; any.
+#pragma once
+
+#include "app/geometry/transform.h"
+#include "app/settings/settings.h"
+#include "app/typography/captions.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace frustumscreen::exhibit {
+
+struct PresentedWindow {
+    std::uint32_t number = 0; ///< counted from 1 on; no two windows have the same one
+    std::size_t artifact = 0; ///< index into the catalogue
+    /// How often it came to a place. Its view is aimed at the eye that pinned it from where it comes; a push moves it as it is.
+    std::uint32_t comings = 0;
+    /// Where it lies. The way that it is turned to is its visitor's.
+    typography::TableRectangle rectangle;
+    glm::dvec3 eye_m{0.0};                    ///< when it was pinned
+    geometry::RigidTransform table_from_prop; ///< when it was pinned
+    double brightness = 0.0; ///< 0..1, a factor on linear light; 0: pinned, and not shown yet
+};
+
+/// Oldest first.
+class PresentedWindows {
+public:
+    [[nodiscard]] std::span<const PresentedWindow> windows() const {
+        return std::span(windows_).first(count_);
+    }
+    void add(const PresentedWindow& window) { windows_.at(count_++) = window; }
+    void dim(double share) {
+        for (PresentedWindow& window : std::span(windows_).first(count_)) {
+            window.brightness *= share;
+        }
+    }
+
+private:
+    /// One that was pinned waits until the oldest has gone.
+    std::array<PresentedWindow, settings::max_windows + 1> windows_{};
+    std::size_t count_ = 0;
+};
+
+} // namespace frustumscreen::exhibit

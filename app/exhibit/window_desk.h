@@ -1,0 +1,141 @@
+/// The windows on the table: pins what is seen through the prop at a free place, and puts windows away.
+///
+/// Pin     A press keeps pose and eye. The window comes beside the newest one of the same artifact, so that two states can be
+///         compared, otherwise beside the prop; clear of captions, pictures, the prop's shadow and other windows, where the
+///         reader looks into it. Where it does not fit it is smaller, down to 65 %. If there are as many as may be, or no place
+///         is left, the oldest goes first.
+/// Push    A prop that stands on the table pushes windows on, as it would push sheets of paper; a window pushes the next one.
+///         One whose middle is pushed beyond the lit part of the table is put away. A prop that is put down on one covers
+///         it.
+/// Cover   Whatever touches a window makes it dark, and it dims as that comes near. A window that stays covered for
+///         `covered` fades out and comes again at a free place; without one it is put away.
+/// Side    When the reader goes to another side of the table, windows turn to that side at new places, as captions do.
+/// Rest    They go when nobody is there, and with their artifact.
+/// Frames  table T, metres.
+/// Time    `now` never goes back.
+/// Threads values; one caller. `step` allocates nothing.
+/// Errors  none: without a place nothing is pinned.
+#pragma once
+
+#include "app/exhibit/presented_windows.h"
+#include "app/typography/captions.h"
+#include "firmware_host/base/time.h"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace frustumscreen::exhibit {
+
+/// A kiosk's windows.
+struct WindowPlace {
+    std::size_t count = 0; ///< up to settings::max_windows
+    glm::dvec2 size_m{0.0};
+};
+
+class WindowDesk {
+public:
+    static constexpr double comes_s = 0.5, goes_s = 0.5; ///< fade in, fade out
+    static constexpr double under_sign_s = 0.25;         ///< to dim under a sign of the guidance, and back
+    static constexpr double under_sign = 0.12;           ///< its light there
+    static constexpr Nanoseconds covered = std::chrono::seconds(1);
+    static constexpr Nanoseconds gives_up = std::chrono::seconds(4); ///< to look for a place
+    static constexpr double beside_m = 0.008;  ///< from captions, pictures and other windows
+    static constexpr double pushed_m = 0.013;  ///< from the shadow of a prop that pushes
+    static constexpr double max_push_m = 0.05; ///< in one step; more is a prop that was put down on it
+
+    WindowDesk(const WindowPlace& place, std::span<const glm::dvec2> picture_m);
+
+    struct Input {
+        std::size_t artifact = 0; ///< in the prop
+        bool pin = false;         ///< pressed
+        bool shows = false;       ///< the prop shows the artifact, so that it can be pinned
+        glm::dvec3 eye_m{0.0};
+        geometry::RigidTransform table_from_prop;       ///< as drawn
+        std::optional<typography::TablePolygon> shadow; ///< hidden_by_prop from the lens
+        std::optional<typography::TablePolygon> hidden; ///< hidden_by_prop from the eye
+        std::optional<typography::TablePolygon> sign;   ///< advice as a picture; windows under it dim
+        bool stands = false;                            ///< the prop stands on the table, and pushes
+        glm::dvec2 prop_m{0.0};
+        int quarter_turns = 0;                                 ///< the reader's side
+        std::span<const typography::TableRectangle> obstacles; ///< everything else that lies on the table
+        bool gone = false;                                     ///< no visitor is there
+    };
+    void step(MonotonicTime now, const Input& input);
+    /// The latest press is undone: what it pinned goes.
+    void undo_pin();
+    /// The artifact cannot be drawn any more: its windows go.
+    void drop_artifact(std::size_t artifact);
+
+    [[nodiscard]] const PresentedWindows& presented() const { return presented_; }
+    /// True if a press would pin something, as of the latest step.
+    [[nodiscard]] bool can_pin() const { return can_pin_; }
+    /// The windows' places, which captions and signs avoid.
+    [[nodiscard]] std::span<const typography::TableRectangle> obstacles() const {
+        return std::span(obstacles_).first(obstacle_count_);
+    }
+    /// A brightness changes by itself.
+    [[nodiscard]] bool changing() const { return changing_; }
+
+private:
+    struct Window {
+        PresentedWindow pinned;
+        bool lies = false;      ///< it has a place
+        bool is_new = true;     ///< it has had none yet
+        bool displaces = false; ///< another one goes for it
+        bool goes = false;      ///< for good
+        bool moves = false;     ///< it fades out to come again elsewhere
+        double share = 0.0;     ///< of its fade
+        double clear = 0.0;     ///< 0: something touches it, 1: nothing is near
+        double signed_share = 0.0;
+        bool pushed = false; ///< in this step
+        std::optional<MonotonicTime> covered_since, signed_at;
+        MonotonicTime looks_since, next_look;
+    };
+    /// The points x with dot(inward, x) >= offset.
+    struct Edge {
+        glm::dvec2 inward{0.0};
+        double offset = 0.0;
+    };
+    [[nodiscard]] std::span<Window> all() { return std::span(windows_).first(count_); }
+    [[nodiscard]] std::span<const Window> all() const { return std::span(windows_).first(count_); }
+    [[nodiscard]] bool accepts(const Input& input) const;
+    void pin(MonotonicTime now, const Input& input);
+    /// Makes the oldest go that is not `except`; false: all go already.
+    bool let_oldest_go(std::uint32_t except);
+    void push(const Input& input);
+    void push_each_other();
+    void look_for_places(MonotonicTime now, const Input& input);
+    [[nodiscard]] std::optional<typography::TableRectangle> free_place(const Window& window,
+                                                                       const Input& input) const;
+    [[nodiscard]] bool is_free(const Window& window, const typography::TableRectangle& place,
+                               const Input& input) const;
+    [[nodiscard]] double cost_of(const Window& window, const typography::TableRectangle& place,
+                                 const Input& input) const;
+    [[nodiscard]] bool lies_in_lit_part(const typography::TableRectangle& place) const;
+    /// 0: something touches it, 1: nothing is near.
+    [[nodiscard]] double clear_share_of(const Window& window, const Input& input) const;
+    void cover(MonotonicTime now, const Input& input, double dt_s);
+    void fade(MonotonicTime now, double dt_s);
+    void present();
+
+    WindowPlace place_;
+    std::vector<glm::dvec2> picture_m_;
+    std::vector<Edge> edges_;                                 ///< of the picture
+    glm::dvec2 low_m_{0.0}, high_m_{0.0};                     ///< around the picture
+    std::array<Window, settings::max_windows + 1> windows_{}; ///< oldest first
+    std::size_t count_ = 0;
+    std::uint32_t numbers_ = 0;  ///< so far
+    std::uint32_t by_press_ = 0; ///< the window of the latest press; 0: none
+    std::optional<MonotonicTime> last_;
+    PresentedWindows presented_;
+    std::array<typography::TableRectangle, settings::max_windows + 1> obstacles_{};
+    std::size_t obstacle_count_ = 0;
+    bool can_pin_ = false, changing_ = false;
+};
+
+} // namespace frustumscreen::exhibit

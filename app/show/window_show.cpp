@@ -1,0 +1,228 @@
+#include "app/show/window_show.h"
+
+#include "app/geometry/time_curves.h"
+#include "app/scene/scene_level.h"
+#include "app/scene/window_plan.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace frustumscreen::show {
+
+namespace {
+
+/// Of its light, for an eye: 1 up to full_deg from the window's normal, 0 from limit_deg on.
+double share_for(const glm::dvec3& eye_m, const glm::dvec2& middle_m) {
+    const double across = glm::distance(glm::dvec2(eye_m), middle_m);
+    const double slant_deg = glm::degrees(std::atan2(across, eye_m.z));
+    return geometry::ease((WindowShow::limit_deg - slant_deg) /
+                          (WindowShow::limit_deg - WindowShow::full_deg));
+}
+
+/// Indices of the largest level of each cell, or of the artifact.
+std::size_t max_indices_of(const pack::PackOutline& outline, const scene::ScenePlan& plan) {
+    std::uint64_t triangles = 0;
+    for (const std::uint32_t level : plan.levels) {
+        triangles = std::max(triangles, outline.levels[level].triangles);
+    }
+    return static_cast<std::size_t>(3 * triangles);
+}
+
+/// A line that is narrower than a pixel may lie between two rows of them.
+double line_width_m(const settings::ProjectorSettings& projector) {
+    const double pixel_m = glm::length(projector.table_from_projector.translation) / projector.pinhole.fx;
+    return std::clamp(WindowShow::frame_px * pixel_m, WindowShow::min_frame_m, WindowShow::max_frame_m);
+}
+
+scene::WindowPlace place_of(const typography::TableRectangle& rectangle) {
+    return {.middle_m = rectangle.centre_m,
+            .yaw_rad = 0.5 * std::numbers::pi * rectangle.quarter_turns,
+            .width_m = rectangle.size_m.x,
+            .depth_m = rectangle.size_m.y};
+}
+
+} // namespace
+
+WindowShow::WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes)
+    : windows_(settings.windows), frame_m_(line_width_m(settings.projector)), prop_middle_m_(prop.middle) {
+    for (std::size_t eye = 0; eye < eyes; ++eye) {
+        spaces_.push_back(scene::make_plan(prop, 0, 1));
+    }
+}
+
+Result<void> WindowShow::prepare(render::GpuStore& store) {
+    TRY(white_, store.upload(image::Image<std::uint8_t>(1, 1, 255)));
+    return {};
+}
+
+std::uint64_t WindowShow::planned_gpu_bytes() const {
+    return scene::caption_gpu_bytes(1, 1);
+}
+
+void WindowShow::make_space(const residency::ArtifactCache& cache) {
+    std::size_t indices = 0, parts = 1;
+    for (std::size_t artifact = 0; artifact < cache.size(); ++artifact) {
+        const residency::KnownArtifact& known = cache.known(artifact);
+        indices = std::max(indices, max_indices_of(known.outline, known.plan));
+        if (known.world) {
+            std::size_t of_cells = 0;
+            for (const residency::KnownCell& cell : known.world->drawn) {
+                of_cells += max_indices_of(cell.outline, cell.plan);
+            }
+            indices = std::max(indices, of_cells);
+            parts = std::max(parts, known.world->drawn.size());
+        }
+    }
+    for (scene::FramePlan& space : spaces_) {
+        scene::make_window_space(space, windows_.count, indices, parts);
+    }
+    for (Held& held : held_) {
+        held = {};
+        held.parts.reserve(parts);
+        held.moved.reserve(parts);
+    }
+}
+
+void WindowShow::place_frames(const exhibit::Presentation& presentation, double brightness,
+                              residency::OnTable& on_table) const {
+    for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
+        const auto& [middle, size, turns] = window.rectangle;
+        const glm::dvec2 off = 0.5 * (size + frame_m_);
+        const auto add = [&](const glm::dvec2& at, const glm::dvec2& side) {
+            on_table.add({.corners_m = residency::picture_corners(
+                              {middle + typography::turned(at, turns), side, turns}),
+                          .brightness = frame_brightness * brightness * window.brightness,
+                          .texture = white_});
+        };
+        for (const double side : {-1.0, 1.0}) {
+            add({side * off.x, 0.0}, {frame_m_, size.y + 2.0 * frame_m_});
+            add({0.0, side * off.y}, {size.x, frame_m_});
+        }
+    }
+}
+
+/// Of two parts that share a cell's pixels, the one that comes.
+void WindowShow::freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
+                        Held& held) const {
+    held.parts.clear();
+    const residency::RunCells* const cells = cache.find_cells(window.artifact);
+    if (cells != nullptr) {
+        for (const scene::Part& part : cells->parts()) {
+            if (!part.dither || !part.dither->complement) {
+                held.parts.push_back({part.level, std::nullopt});
+            }
+        }
+    }
+    if (held.parts.empty()) {
+        held.parts.push_back({cache.find(window.artifact)->shown(), std::nullopt});
+    }
+}
+
+void WindowShow::aim(const exhibit::PresentedWindow& window, Held& held) const {
+    held.comings = window.comings;
+    held.is_aimed = false;
+    const std::optional<scene::WorldBall> ball = scene::ball_around(held.parts);
+    if (!ball) {
+        return;
+    }
+    std::optional<scene::PinnedView> view = scene::pin_view({.table_from_prop = window.table_from_prop,
+                                                             .prop_middle = prop_middle_m_,
+                                                             .eye_m = window.eye_m,
+                                                             .world = *ball,
+                                                             .place = place_of(window.rectangle)});
+    if (view) {
+        held.view = std::move(*view);
+        scene::move_behind(held.view.window_from_prop, held.parts, held.moved);
+        held.is_aimed = true;
+    }
+}
+
+WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
+                                      const exhibit::PresentedWindows& presented,
+                                      const residency::ArtifactCache& cache) {
+    const auto is_presented = [&](const Held& held) {
+        const auto all = presented.windows();
+        return std::any_of(all.begin(), all.end(),
+                           [&](const auto& one) { return one.number == held.number; });
+    };
+    auto* found = std::find_if(held_.begin(), held_.end(),
+                               [&](const Held& held) { return held.number == window.number; });
+    if (found == held_.end()) { // in the place of one that has gone: there are as many places as windows
+        found = std::find_if_not(held_.begin(), held_.end(), is_presented);
+        assert(found != held_.end());
+        found->number = window.number;
+        found->comings = 0;
+        found->is_aimed = false;
+        found->lost = cache.find(window.artifact) == nullptr;
+        if (!found->lost) {
+            freeze(window, cache, *found);
+        }
+    }
+    return *found;
+}
+
+std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentation& presentation,
+                                                       std::span<const glm::dvec3> eyes_m,
+                                                       const residency::ArtifactCache& cache) {
+    std::size_t count = 0;
+    for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
+        Held& held = held_of(window, presentation.windows, cache);
+        held.lost = held.lost || cache.find(window.artifact) == nullptr;
+        if (held.lost || window.comings == 0) {
+            continue;
+        }
+        if (held.comings != window.comings) {
+            aim(window, held);
+        }
+        double share = 1.0;
+        for (const glm::dvec3& eye : eyes_m) {
+            share = std::min(share, share_for(eye, window.rectangle.centre_m));
+        }
+        const double brightness = cache.exposure(window.artifact) * window.brightness * share;
+        if (!held.is_aimed || brightness <= 0.0 || count >= placed_.size()) {
+            continue;
+        }
+        geometry::RigidTransform table_from_window = held.view.table_from_window;
+        table_from_window.translation =
+            glm::dvec3(window.rectangle.centre_m, table_from_window.translation.z);
+        placed_.at(count++) = {.surface = &held.view.surface,
+                               .table_from_window = table_from_window,
+                               .parts = held.moved,
+                               .brightness = brightness};
+    }
+    return std::span(placed_).first(count);
+}
+
+std::span<const scene::PlacedWindow> WindowShow::sample(const scene::PlacedLevel& level,
+                                                        const glm::dvec2& place_m, const glm::dvec3& eye_m) {
+    Held& held = held_.front();
+    held.parts.assign(1, {level, std::nullopt});
+    aim({.number = 0,
+         .artifact = 0,
+         .comings = 0,
+         .rectangle = {place_m, {windows_.width_m, windows_.depth_m}, 0},
+         .eye_m = eye_m,
+         .table_from_prop = {},
+         .brightness = 1.0},
+        held);
+    if (!held.is_aimed) {
+        return {};
+    }
+    placed_.front() = {.surface = &held.view.surface,
+                       .table_from_window = held.view.table_from_window,
+                       .parts = held.moved,
+                       .brightness = 1.0};
+    return std::span(placed_).first(1);
+}
+
+void WindowShow::swap_space(std::span<scene::FramePlan> plans) {
+    for (std::size_t eye = 0; eye < std::min(plans.size(), spaces_.size()); ++eye) {
+        std::swap(plans[eye].windows, spaces_[eye].windows);
+        plans[eye].window_count = 0;
+    }
+}
+
+} // namespace frustumscreen::show

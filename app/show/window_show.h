@@ -1,0 +1,106 @@
+/// The windows that visitors have pinned, in the picture: what each shows, frozen when it was pinned, and a thin frame around it.
+///
+/// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye. What the
+///          governor chooses later changes nothing of them. A window whose artifact leaves the cache shows nothing any more.
+/// Slant    a window is seen from within 60 degrees of its normal; beyond `full_deg` it fades, and is dark at the limit. Its
+///          frame stays.
+/// Memory   one plan for each window and eye, for the largest level of any artifact of the set; the plan of the frame
+///          borrows them while it is drawn. Nothing without windows.
+/// Frames   table T, metres.
+/// Threads  the render thread. Allocates only in `make_space`, and when a window comes to a place.
+/// Errors   the driver has no memory.
+#pragma once
+
+#include "app/exhibit/presentation.h"
+#include "app/render/gpu_store.h"
+#include "app/residency/artifact_cache.h"
+#include "app/residency/on_table.h"
+#include "app/scene/frame_plan.h"
+#include "app/scene/pinned_view.h"
+#include "app/settings/settings.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frustumscreen::show {
+
+class WindowShow {
+public:
+    static constexpr double full_deg = 56.0,
+                            limit_deg = 60.0; ///< of the eye's direction from the window's normal
+    static constexpr double min_frame_m = 0.0015, max_frame_m = 0.005; ///< width of its lines
+    static constexpr double frame_px = 1.3;          ///< or as many of the projector's pixels
+    static constexpr double frame_brightness = 0.35; ///< of the texts' light
+
+    /// `eyes`: of the layout.
+    WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes);
+    /// Uploads the frame's texel.
+    [[nodiscard]] Result<void> prepare(render::GpuStore& store);
+    [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
+    /// Makes room for all that the artifacts of this set may show, and forgets the windows of another one.
+    void make_space(const residency::ArtifactCache& cache);
+
+    void place_frames(const exhibit::Presentation& presentation, double brightness,
+                      residency::OnTable& on_table) const;
+    /// Freezes what comes, and returns what is seen; valid until the next call.
+    [[nodiscard]] std::span<const scene::PlacedWindow> place(const exhibit::Presentation& presentation,
+                                                             std::span<const glm::dvec3> eyes_m,
+                                                             const residency::ArtifactCache& cache);
+    /// The level in a window at a place, to draw one frame with.
+    [[nodiscard]] std::span<const scene::PlacedWindow>
+    sample(const scene::PlacedLevel& level, const glm::dvec2& place_m, const glm::dvec3& eye_m);
+
+    /// Gives the plans, one for each eye, room for windows, or takes it back.
+    void swap_space(std::span<scene::FramePlan> plans);
+
+private:
+    struct Held {
+        std::uint32_t number = 0, comings = 0;
+        bool lost = false;              ///< its artifact has left the cache
+        std::vector<scene::Part> parts; ///< prop frame, as the prop showed them
+        std::vector<scene::Part> moved; ///< window's frame
+        scene::PinnedView view;
+        bool is_aimed = false;
+    };
+    [[nodiscard]] Held& held_of(const exhibit::PresentedWindow& window,
+                                const exhibit::PresentedWindows& presented,
+                                const residency::ArtifactCache& cache);
+    void freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
+                Held& held) const;
+    void aim(const exhibit::PresentedWindow& window, Held& held) const;
+
+    settings::WindowSettings windows_;
+    double frame_m_;
+    glm::dvec3 prop_middle_m_;
+    scene::TextureId white_ = scene::TextureId::None;
+    std::array<Held, settings::max_windows + 1> held_{};
+    std::vector<scene::FramePlan> spaces_; ///< one for each eye: of these, the windows
+    std::array<scene::PlacedWindow, settings::max_windows> placed_{};
+};
+
+/// Gives plans room for windows while a frame is drawn.
+class LentSpace {
+public:
+    /// `windows`: null: there are none.
+    LentSpace(WindowShow* windows, std::span<scene::FramePlan> plans) : windows_(windows), plans_(plans) {
+        if (windows_ != nullptr) {
+            windows_->swap_space(plans_);
+        }
+    }
+    ~LentSpace() {
+        if (windows_ != nullptr) {
+            windows_->swap_space(plans_);
+        }
+    }
+    LentSpace(const LentSpace&) = delete;
+    LentSpace& operator=(const LentSpace&) = delete;
+
+private:
+    WindowShow* windows_;
+    std::span<scene::FramePlan> plans_;
+};
+
+} // namespace frustumscreen::show

@@ -1,0 +1,603 @@
+// Windows on the table: where they come, how they fade, what pushes them and when they go; in simulated time.
+#include "app/bench/truth/seeded_situations.h"
+#include "app/exhibit/table_contact.h"
+#include "app/tracking/pose_math.h"
+#include "tests/exhibit/flash_counter.h"
+#include "tests/exhibit/walked_exhibit.h"
+#include "tests/render/counted_new.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace frustumscreen::exhibit {
+namespace {
+
+using settings::Command;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using typography::TableRectangle;
+
+constexpr Nanoseconds frame = milliseconds(20);
+constexpr double seen = 0.01; ///< of the light
+
+std::array<glm::dvec2, 4> square(const glm::dvec2& middle, double half, double turn) {
+    std::array<glm::dvec2, 4> corners{};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const double at = turn + std::numbers::pi * (0.25 + 0.5 * static_cast<double>(k));
+        corners.at(k) = middle + half * std::sqrt(2.0) * glm::dvec2(std::cos(at), std::sin(at));
+    }
+    return corners;
+}
+
+std::array<glm::dvec2, 4> moved(std::array<glm::dvec2, 4> corners, const glm::dvec2& by) {
+    for (glm::dvec2& corner : corners) {
+        corner += by;
+    }
+    return corners;
+}
+
+/// Against a search in all directions: no shorter slide makes the two clear of each other.
+TEST(SlideClear, IsTheShortestSlideThatPartsTwoThings) {
+    bench::Seeded random(5);
+    int touching = 0;
+    for (int k = 0; k < 400; ++k) {
+        const auto thing = square({random.between(-0.1, 0.1), random.between(-0.1, 0.1)},
+                                  random.between(0.02, 0.06), random.between(0.0, 3.0));
+        const auto other = square({0.0, 0.0}, random.between(0.02, 0.06), random.between(0.0, 3.0));
+        const auto way = slide_clear(thing, other, 0.0);
+        EXPECT_EQ(way.has_value(), typography::clearance(thing, other) <= 0.0);
+        if (!way) {
+            continue;
+        }
+        ++touching;
+        EXPECT_GT(typography::clearance(moved(thing, 1.001 * *way), other), 0.0);
+        for (int direction = 0; direction < 360; ++direction) {
+            const double at = glm::radians(static_cast<double>(direction));
+            const glm::dvec2 shorter = 0.99 * glm::length(*way) * glm::dvec2(std::cos(at), std::sin(at));
+            EXPECT_EQ(typography::clearance(moved(thing, shorter), other), 0.0) << direction;
+        }
+    }
+    EXPECT_GT(touching, 100);
+}
+
+/// A desk of its own: a square prop on a table of 0.8 x 0.5 m.
+struct Desk {
+    explicit Desk(std::size_t count = 3)
+        : desk({.count = count, .size_m = {0.1, 0.1}},
+               std::vector<glm::dvec2>{{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}}) {}
+
+    void step(bool pins = false, Nanoseconds later = frame) {
+        now += later;
+        const auto shadow = square(prop_m, 0.08, 0.0);
+        const WindowDesk::Input input{.artifact = artifact,
+                                      .pin = pins,
+                                      .shows = true,
+                                      .eye_m = eye_m,
+                                      .table_from_prop = {{1.0, 0.0, 0.0, 0.0}, glm::dvec3(prop_m, 0.0)},
+                                      .shadow = typography::hull_of({}, shadow),
+                                      .hidden = std::nullopt,
+                                      .sign = std::nullopt,
+                                      .stands = stands,
+                                      .prop_m = prop_m,
+                                      .quarter_turns = side,
+                                      .obstacles = obstacles,
+                                      .gone = gone};
+        desk.step(now, input);
+    }
+    void run(Nanoseconds time, bool pins = false) {
+        for (const MonotonicTime end = now + time; now < end; pins = false) {
+            step(pins);
+        }
+    }
+    [[nodiscard]] std::span<const PresentedWindow> windows() const { return desk.presented().windows(); }
+    /// Seen, by number.
+    [[nodiscard]] std::vector<PresentedWindow> lit() const {
+        std::vector<PresentedWindow> lit;
+        std::copy_if(windows().begin(), windows().end(), std::back_inserter(lit),
+                     [](const PresentedWindow& window) { return window.brightness > 0.0; });
+        return lit;
+    }
+    /// Moves the prop along, at a hand's speed.
+    void slide(const glm::dvec2& to_m, double metres_per_s = 0.3) {
+        const double step_m = metres_per_s * to_seconds(frame);
+        while (glm::distance(prop_m, to_m) > step_m) {
+            prop_m += step_m * glm::normalize(to_m - prop_m);
+            step();
+        }
+        prop_m = to_m;
+        step();
+    }
+
+    WindowDesk desk;
+    MonotonicTime now = sample::start;
+    glm::dvec2 prop_m{0.0};
+    glm::dvec3 eye_m{0.0, -0.55, 0.5};
+    std::size_t artifact = 0;
+    bool stands = true, gone = false;
+    int side = 0;
+    std::vector<TableRectangle> obstacles;
+};
+
+TEST(WindowDesk, KeepsPoseAndEyeOfThePressAndFadesInBesideTheProp) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    ASSERT_TRUE(desk.desk.can_pin());
+    const glm::dvec3 eye = desk.eye_m;
+    desk.step(true);
+    double before = 0.0;
+    for (int k = 0; k < 60; ++k) {
+        desk.eye_m.x += 0.005; // whoever looks goes on
+        desk.step();
+        ASSERT_EQ(desk.windows().size(), 1U);
+        const double now = desk.windows()[0].brightness;
+        EXPECT_GE(now, before);
+        EXPECT_LE(now - before, 1.5 * to_seconds(frame) / WindowDesk::comes_s + 1e-9);
+        EXPECT_EQ(desk.desk.can_pin(), k >= 24) << "the next one comes when this one is there: " << k;
+        before = now;
+    }
+    EXPECT_EQ(before, 1.0);
+    EXPECT_EQ(desk.windows()[0].eye_m, eye);
+    EXPECT_EQ(desk.windows()[0].comings, 1U);
+    const double clear =
+        typography::clearance(desk.windows()[0].rectangle.corners(), square(desk.prop_m, 0.08, 0.0));
+    EXPECT_GE(clear, 0.02);
+    EXPECT_LE(clear, 0.06);
+}
+
+TEST(WindowDesk, ShowsAsManyAsMayBeAndTheOldestGoes) {
+    Desk desk(3);
+    desk.run(milliseconds(100));
+    for (int k = 0; k < 40; ++k) {
+        desk.artifact = static_cast<std::size_t>(k % 3);
+        desk.step(true);
+        for (int j = 0; j < 20 + 7 * (k % 9); ++j) {
+            desk.step(j % 3 == 0);
+            ASSERT_LE(desk.lit().size(), 3U);
+        }
+    }
+    desk.run(seconds(3));
+    ASSERT_EQ(desk.lit().size(), 3U);
+    EXPECT_LT(desk.lit()[0].number, desk.lit()[1].number);
+    const std::uint32_t oldest = desk.lit()[0].number;
+    desk.run(seconds(3), true);
+    ASSERT_EQ(desk.lit().size(), 3U);
+    EXPECT_EQ(desk.lit()[0].number, oldest + 1);
+    EXPECT_EQ(desk.lit()[2].number, oldest + 3);
+}
+
+TEST(WindowDesk, PutsAnotherStateOfTheSameArtifactBesideTheFirst) {
+    Desk desk;
+    desk.prop_m = {-0.25, 0.0};
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    desk.artifact = 1;
+    desk.run(seconds(1), true);
+    desk.artifact = 0;
+    desk.run(seconds(1), true);
+    const auto lit = desk.lit();
+    ASSERT_EQ(lit.size(), 3U);
+    const glm::dvec2 off = glm::abs(lit[2].rectangle.centre_m - lit[0].rectangle.centre_m);
+    EXPECT_LT(off.y, 0.011);
+    EXPECT_LT(off.x, 0.14);
+}
+
+TEST(WindowDesk, APropPushesThemOnAndOverTheEdgeOfTheLitPart) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    const glm::dvec2 at = desk.windows()[0].rectangle.centre_m;
+    const glm::dvec2 along = glm::abs(at.x) > glm::abs(at.y) ? glm::dvec2(at.x > 0 ? 1.0 : -1.0, 0.0)
+                                                             : glm::dvec2(0.0, at.y > 0 ? 1.0 : -1.0);
+    double last = glm::dot(at, along);
+    for (int k = 0; k < 15; ++k) {
+        desk.slide(desk.prop_m + 0.01 * along);
+        const PresentedWindow& window = desk.windows()[0];
+        EXPECT_GT(window.brightness, 0.99) << "it is seen while it is pushed";
+        EXPECT_GE(typography::clearance(window.rectangle.corners(), square(desk.prop_m, 0.08, 0.0)), 0.0125);
+        EXPECT_GE(glm::dot(window.rectangle.centre_m, along), last);
+        EXPECT_EQ(window.comings, 1U) << "it shows what it showed";
+        last = glm::dot(window.rectangle.centre_m, along);
+    }
+    EXPECT_GT(last, glm::dot(at, along) + 0.05);
+    while (glm::dot(desk.prop_m, along) < 0.45) {
+        desk.slide(desk.prop_m + 0.01 * along);
+    }
+    desk.run(seconds(1));
+    EXPECT_TRUE(desk.windows().empty()) << "it was put away";
+}
+
+TEST(WindowDesk, AWindowThatIsPushedPushesTheNext) {
+    Desk desk;
+    desk.prop_m = {-0.3, 0.0};
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    desk.run(seconds(1), true);
+    ASSERT_EQ(desk.lit().size(), 2U);
+    const double first = std::max(desk.lit()[0].rectangle.centre_m.x, desk.lit()[1].rectangle.centre_m.x);
+    desk.slide({-0.1, 0.0});
+    ASSERT_EQ(desk.lit().size(), 2U);
+    EXPECT_GT(std::max(desk.lit()[0].rectangle.centre_m.x, desk.lit()[1].rectangle.centre_m.x), first + 0.05);
+    EXPECT_GT(typography::clearance(desk.lit()[0].rectangle.corners(), desk.lit()[1].rectangle.corners()),
+              0.006);
+    for (const PresentedWindow& window : desk.lit()) {
+        EXPECT_GT(window.brightness, 0.99);
+    }
+}
+
+TEST(WindowDesk, OneThatThePropIsPutDownOnIsDarkAndComesAgainElsewhere) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    const glm::dvec2 at = desk.windows()[0].rectangle.centre_m;
+    desk.stands = false; // lifted
+    desk.prop_m = at;
+    desk.step();
+    EXPECT_TRUE(desk.lit().empty());
+    desk.stands = true; // put down: not pushed aside by the half of its width
+    desk.step();
+    EXPECT_TRUE(desk.lit().empty());
+    desk.run(milliseconds(800));
+    EXPECT_TRUE(desk.lit().empty());
+    desk.run(seconds(2));
+    ASSERT_EQ(desk.lit().size(), 1U);
+    EXPECT_EQ(desk.lit()[0].brightness, 1.0);
+    EXPECT_EQ(desk.lit()[0].comings, 2U);
+    EXPECT_GT(glm::distance(desk.lit()[0].rectangle.centre_m, at), 0.1);
+}
+
+TEST(WindowDesk, ACaptionThatComesNearMakesOneDarkAndItGoesElsewhere) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    desk.obstacles = {{desk.windows()[0].rectangle.centre_m, {0.05, 0.02}, 0}};
+    desk.step();
+    EXPECT_TRUE(desk.lit().empty());
+    desk.run(seconds(3));
+    ASSERT_EQ(desk.lit().size(), 1U);
+    EXPECT_GT(typography::clearance(desk.lit()[0].rectangle.corners(), desk.obstacles[0].corners()),
+              WindowDesk::beside_m);
+}
+
+TEST(WindowDesk, TurnsToTheReadersSideThroughDarkness) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    desk.side = 1;
+    desk.eye_m = {0.7, 0.0, 0.5};
+    double darkest = 1.0;
+    for (int k = 0; k < 75; ++k) {
+        desk.step();
+        const PresentedWindow& window = desk.windows()[0];
+        EXPECT_TRUE(window.brightness <= 0.0 ||
+                    window.rectangle.quarter_turns == (window.comings == 1 ? 0 : 1));
+        darkest = std::min(darkest, window.brightness);
+    }
+    EXPECT_EQ(darkest, 0.0);
+    EXPECT_EQ(desk.windows()[0].brightness, 1.0);
+    EXPECT_EQ(desk.windows()[0].rectangle.quarter_turns, 1);
+}
+
+TEST(WindowDesk, WithoutSpaceTheOldestGoesAndThenNothingIsPinned) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    ASSERT_EQ(desk.lit().size(), 1U);
+    // A picture beside each place, but for the window's own.
+    const TableRectangle own = desk.windows()[0].rectangle;
+    for (double x = -0.38; x < 0.4; x += 0.06) {
+        for (double y = -0.22; y < 0.24; y += 0.06) {
+            const TableRectangle picture{{x, y}, {0.02, 0.02}, 0};
+            if (typography::clearance(picture.corners(), own.corners()) > 0.02) {
+                desk.obstacles.push_back(picture);
+            }
+        }
+    }
+    desk.run(seconds(3), true);
+    ASSERT_EQ(desk.lit().size(), 1U);
+    EXPECT_EQ(desk.lit()[0].number, 2U);
+    EXPECT_LT(glm::distance(desk.lit()[0].rectangle.centre_m, own.centre_m), 0.03);
+    desk.obstacles.push_back({{0.0, 0.0}, {0.8, 0.5}, 0});
+    desk.run(seconds(8));
+    EXPECT_TRUE(desk.windows().empty());
+    desk.run(seconds(6), true);
+    EXPECT_TRUE(desk.windows().empty());
+    EXPECT_TRUE(desk.desk.can_pin());
+}
+
+TEST(WindowDesk, AllGoSoftlyWhenNobodyIsThere) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    desk.run(seconds(1), true);
+    desk.gone = true;
+    double before = 1.0;
+    for (int k = 0; k < 24; ++k) {
+        desk.step();
+        ASSERT_EQ(desk.lit().size(), 2U);
+        EXPECT_LE(before - desk.lit()[0].brightness, 1.5 * to_seconds(frame) / WindowDesk::goes_s + 1e-9);
+        before = desk.lit()[0].brightness;
+    }
+    desk.run(milliseconds(100));
+    EXPECT_TRUE(desk.windows().empty());
+    desk.step(true);
+    EXPECT_TRUE(desk.windows().empty());
+}
+
+TEST(WindowDesk, AnArtifactThatLeavesMemoryTakesItsWindowsWithIt) {
+    Desk desk;
+    desk.run(milliseconds(100));
+    desk.run(seconds(1), true);
+    desk.artifact = 1;
+    desk.run(seconds(1), true);
+    desk.desk.drop_artifact(0);
+    desk.run(seconds(1));
+    ASSERT_EQ(desk.windows().size(), 1U);
+    EXPECT_EQ(desk.windows()[0].artifact, 1U);
+}
+
+TEST(WindowDesk, AllocatesNothing) {
+    Desk desk(settings::max_windows);
+    desk.run(seconds(1), true);
+    const long before = synthetic::allocations_so_far();
+    for (int k = 0; k < 600; ++k) {
+        desk.side = k / 200;
+        desk.prop_m.x = 0.2 * std::sin(0.02 * k);
+        desk.step(k % 40 == 0);
+    }
+    EXPECT_EQ(synthetic::allocations_so_far(), before);
+    EXPECT_GE(desk.windows().size(), 3U);
+}
+
+/// What a place of the table shows of windows, whatever is pressed with a prop at rest.
+TEST(WindowDesk, NoPlaceFlashesWhateverIsPressed) {
+    int most = 0;
+    for (unsigned seed = 0; seed < 24; ++seed) {
+        bench::Seeded random(seed);
+        Desk desk(1 + seed % settings::max_windows);
+        std::map<std::pair<int, int>, std::vector<Luminance>> places;
+        const double often = random.between(0.005, 0.5);
+        for (int k = 0; k < 1500; ++k) {
+            desk.artifact = static_cast<std::size_t>(random.between(0.0, 2.999));
+            desk.step(random.happens(often));
+            for (int x = -7; x <= 7; ++x) {
+                for (int y = -4; y <= 4; ++y) {
+                    const glm::dvec2 at(0.05 * x, 0.05 * y);
+                    double light = 0.0;
+                    for (const PresentedWindow& window : desk.windows()) {
+                        light = lies_in(at, window.rectangle.corners()) ? std::max(light, window.brightness)
+                                                                        : light;
+                    }
+                    places[{x, y}].push_back({desk.now, light});
+                }
+            }
+        }
+        for (const auto& [place, samples] : places) {
+            most = std::max(most, max_flashes_per_second(samples));
+        }
+    }
+    EXPECT_LE(most, 2);
+    EXPECT_GE(most, 1) << "nothing was seen of the presses";
+}
+
+/// The whole exhibit, with everything else that lies on the table.
+class WindowExhibit : public ::testing::Test {
+protected:
+    static ExhibitPlace place(std::size_t count, std::size_t buttons = 7) {
+        ExhibitPlace place = walked::walked_place();
+        for (AdviceLanguage& language : place.words) {
+            language.texts.push_back({"pin_window", {{0.12, 0.02}}});
+        }
+        place.buttons = buttons;
+        place.windows.reset();
+        if (count > 0) {
+            place.windows = {.count = count, .size_m = {0.08, 0.08}};
+        }
+        return place;
+    }
+    Presentation run(Nanoseconds time, std::vector<Command> commands = {}) {
+        Presentation shown;
+        const MonotonicTime end = now + time;
+        do {
+            now += frame;
+            state.time = now;
+            shown = exhibit.step(now, commands, state);
+            commands.clear();
+        } while (now < end);
+        return shown;
+    }
+    [[nodiscard]] static bool lamp(const Presentation& shown) {
+        return (shown.lamps & (1U << static_cast<unsigned>(settings::button_of(Command::Window)))) != 0;
+    }
+    void visit() {
+        state = sample::tracked_state(now);
+        (void)run(seconds(3), {Command::NextLanguage});
+    }
+
+    MonotonicTime now = sample::start;
+    tracking::TrackedState state = sample::tracked_state(sample::start);
+    Exhibit exhibit{walked::walked_catalogue(), place(3), "en", sample::start};
+};
+
+TEST_F(WindowExhibit, TheSeventhButtonPinsWhatTheEyeSeesOfTheArtifactOnShow) {
+    EXPECT_FALSE(lamp(run(seconds(1)))) << "nobody is there";
+    visit();
+    EXPECT_TRUE(lamp(run(milliseconds(20))));
+    state.eye_m = {0.1, -0.6, 0.45};
+    Presentation shown = run(seconds(1), {Command::Window});
+    ASSERT_EQ(shown.windows.windows().size(), 1U);
+    EXPECT_EQ(shown.windows.windows()[0].artifact, shown.artifact);
+    EXPECT_EQ(shown.windows.windows()[0].eye_m, state.eye_m);
+    EXPECT_EQ(shown.windows.windows()[0].brightness, 1.0);
+    shown = run(seconds(3), {Command::NextArtifact});
+    EXPECT_EQ(shown.windows.windows().size(), 1U) << "another artifact, and the window stays";
+    EXPECT_NE(shown.windows.windows()[0].artifact, shown.artifact);
+    const auto wanted = shown.wanted.artifacts();
+    EXPECT_NE(std::find(wanted.begin(), wanted.end(), shown.windows.windows()[0].artifact), wanted.end());
+}
+
+TEST_F(WindowExhibit, AllWindowsGoAtRest) {
+    visit();
+    EXPECT_EQ(run(seconds(1), {Command::Window}).windows.windows().size(), 1U);
+    const Presentation shown = run(seconds(400));
+    EXPECT_EQ(shown.state, State::Attract);
+    EXPECT_TRUE(shown.windows.windows().empty());
+}
+
+TEST_F(WindowExhibit, TheyFadeWithTheirSetAndAnotherSetBeginsWithoutAny) {
+    visit();
+    (void)run(seconds(1), {Command::Window});
+    exhibit.await_set(true);
+    double before = 1.0;
+    bool faded = false;
+    for (int k = 0; k < 5000 && !exhibit.set_has_left(); ++k) {
+        const Presentation shown = run(frame);
+        for (const PresentedWindow& window : shown.windows.windows()) {
+            EXPECT_LE(before - window.brightness, 0.35) << "softly";
+            before = window.brightness;
+            faded = faded || (before > 0.1 && before < 0.9);
+        }
+    }
+    EXPECT_TRUE(faded);
+    (void)exhibit.show_set(walked::walked_catalogue(),
+                           lay_out_catalogue(walked::walked_catalogue(), place(3)), place(3).words, 0, now);
+    EXPECT_TRUE(run(seconds(1)).windows.windows().empty());
+}
+
+TEST_F(WindowExhibit, WithoutWindowsTheButtonDoesNothing) {
+    exhibit = Exhibit{walked::walked_catalogue(), place(0), "en", now};
+    visit();
+    const Presentation shown = run(seconds(1), {Command::Window});
+    EXPECT_TRUE(shown.windows.windows().empty());
+    EXPECT_FALSE(lamp(shown));
+}
+
+TEST_F(WindowExhibit, AVisitorIsToldOfTheButtonOnceUnlessItWasFound) {
+    for (const bool finds : {false, true}) {
+        exhibit = Exhibit{Catalogue(2, CatalogueEntry{walked::languages, {3, {{0.14, 0.04}}}}), place(3),
+                          "en", now};
+        visit();
+        if (finds) {
+            (void)run(frame, {Command::Window});
+        }
+        const auto text = static_cast<std::size_t>(walked::keys.size());
+        double told_s = 0.0;
+        for (int k = 0; k < 2000; ++k) {
+            state.table_from_prop.translation.x = 0.03 * (k / 100 % 2); // somebody is there
+            const Presentation shown = run(frame);
+            told_s += shown.advice && shown.advice->word.text == text ? to_seconds(frame) : 0.0;
+        }
+        EXPECT_NEAR(told_s, finds ? 0.0 : 10.0, 0.6);
+    }
+}
+
+/// The staff's chord is the first and the last button of the panel, six or seven.
+TEST_F(WindowExhibit, TheChordUndoesThePressOfThePanelsLastButton) {
+    for (const std::size_t buttons : {std::size_t{6}, std::size_t{7}}) {
+        exhibit = Exhibit{walked::walked_catalogue(), place(3, buttons), "en", now};
+        visit();
+        const std::size_t before = exhibit.chosen();
+        (void)run(frame, {settings::button_commands.at(buttons - 1)});
+        (void)run(frame, {Command::PreviousArtifact});
+        EXPECT_EQ(run(seconds(1)).windows.windows().size(), buttons - 6) << "the seventh button pins";
+        (void)run(frame, {Command::StaffMode});
+        EXPECT_EQ(exhibit.chosen(), before) << buttons;
+        EXPECT_TRUE(run(seconds(1)).windows.windows().empty());
+    }
+}
+
+bool overlap(const TableRectangle& a, const TableRectangle& b) {
+    return typography::clearance(a.corners(), b.corners()) <= 0.0;
+}
+
+/// A hand that slides, turns, lifts and presses everything: what is seen of a window lies beside all that is seen else.
+TEST_F(WindowExhibit, NeverOverlapAnythingOnTheTableOverSeededWalks) {
+    const ExhibitPlace where = place(3);
+    std::size_t most = 0;
+    int pushed = 0, moved_on = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        bench::Seeded random(seed);
+        exhibit = Exhibit{walked::walked_catalogue(), where, "en", now};
+        visit();
+        glm::dvec2 to(0.0);
+        std::map<std::uint32_t, PresentedWindow> before;
+        for (int k = 0; k < 6000; ++k) {
+            geometry::RigidTransform& pose = state.table_from_prop;
+            if (random.happens(0.01)) {
+                to = {random.between(-0.3, 0.3), random.between(-0.15, 0.15)};
+            }
+            if (random.happens(0.004)) {
+                state.eye_m = random.happens(0.5) ? glm::dvec3(0.0, -0.55, 0.5) : glm::dvec3(0.7, 0.0, 0.5);
+            }
+            const glm::dvec2 off = to - glm::dvec2(pose.translation);
+            const double step_m = 0.2 * to_seconds(frame);
+            if (glm::length(off) > step_m) {
+                pose.translation += glm::dvec3(step_m * glm::normalize(off), 0.0);
+            }
+            pose.translation.z = random.happens(0.995) ? pose.translation.z
+                                 : random.happens(0.5) ? 0.06
+                                                       : 0.0;
+            pose.rotation =
+                glm::normalize(pose.rotation * tracking::rotation_of({0.0, 0.0, 0.02 * random.normal()}));
+            std::vector<Command> commands;
+            if (random.happens(0.03)) {
+                commands.push_back(
+                    settings::button_commands.at(static_cast<std::size_t>(random.between(0.0, 6.999))));
+            }
+            if (random.happens(0.02)) {
+                commands.push_back(Command::Window);
+            }
+            const Presentation shown = run(frame, commands);
+            const auto shadow = typography::hidden_by_prop(where.prop, shown.table_from_prop, where.lens_m);
+            std::vector<TableRectangle> lit;
+            for (const PresentedWindow& window : shown.windows.windows()) {
+                if (window.brightness > seen) {
+                    lit.push_back(window.rectangle);
+                }
+                const auto found = before.find(window.number);
+                const bool same = found != before.end() && found->second.comings == window.comings;
+                pushed += same && found->second.rectangle.centre_m != window.rectangle.centre_m ? 1 : 0;
+                moved_on += window.comings > 1 ? 1 : 0;
+                const double last = found != before.end() ? found->second.brightness : 0.0;
+                // What covered it, and a sign on it, may leave at the same time.
+                constexpr double fastest =
+                    1.0 / 0.25 + 1.5 * (1.0 - WindowDesk::under_sign) / WindowDesk::under_sign_s;
+                EXPECT_LE(window.brightness - last, fastest * to_seconds(frame)) << "it jumps into the light";
+            }
+            before.clear();
+            for (const PresentedWindow& window : shown.windows.windows()) {
+                before[window.number] = window;
+            }
+            most = std::max(most, lit.size());
+            ASSERT_LE(lit.size(), 3U);
+            for (std::size_t a = 0; a < lit.size(); ++a) {
+                for (std::size_t b = 0; b < a; ++b) {
+                    ASSERT_FALSE(overlap(lit[a], lit[b])) << seed << ": " << k;
+                }
+                ASSERT_TRUE(shadow);
+                ASSERT_GT(typography::clearance(lit[a].corners(), shadow->corners()), 0.0)
+                    << seed << ": " << k;
+                ASSERT_FALSE(shown.caption && shown.caption->brightness > seen &&
+                             overlap(lit[a], shown.caption->rectangle))
+                    << seed << ": " << k;
+                ASSERT_FALSE(shown.hotspot && overlap(lit[a], shown.hotspot->label)) << seed << ": " << k;
+                ASSERT_FALSE(shown.title && overlap(lit[a], shown.title->rectangle)) << seed << ": " << k;
+                ASSERT_FALSE(shown.advice && overlap(lit[a], shown.advice->rectangle)) << seed << ": " << k;
+                for (const PlacedPicture& picture : shown.table->pictures()) {
+                    ASSERT_FALSE(picture.brightness > seen && overlap(lit[a], picture.place.whole()))
+                        << seed << ": " << k;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(most, 3U);
+    EXPECT_GT(pushed, 100);
+    EXPECT_GT(moved_on, 100);
+}
+
+} // namespace
+} // namespace frustumscreen::exhibit
