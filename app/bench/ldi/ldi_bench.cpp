@@ -165,13 +165,15 @@ double LdiRow::window_ms() const {
     return quantile(extra, 0.5);
 }
 
-Result<Techniques> window_techniques(WindowSet& set) {
+Result<Techniques> window_techniques(WindowSet& set, bool coarse) {
     Techniques techniques;
     techniques.push_back(make_window_geometry(set));
     TRY(techniques.emplace_back(), make_window_lod(set));
     techniques.push_back(make_window_relief(set));
-    for (const int pixels_per_texel : {1, 2, 4}) {
-        techniques.push_back(make_window_ours(set, pixels_per_texel));
+    techniques.push_back(make_window_ours(set, 1));
+    if (coarse) {
+        techniques.push_back(make_window_ours(set, 2));
+        techniques.push_back(make_window_ours(set, 4));
     }
     techniques.push_back(make_multi_ldi(set));
     techniques.push_back(make_single_ldi(set));
@@ -204,7 +206,7 @@ Result<LdiResult> measure_ldi(const settings::Settings& settings, const LdiOptio
         for (const int pixels : resolutions) {
             (void)step(fmt::format("windows of {} pixels are made", pixels));
             TRY(const std::unique_ptr<WindowSet> set, WindowSet::open(settings, scene, pixels));
-            TRY(const Techniques techniques, window_techniques(*set));
+            TRY(const Techniques techniques, window_techniques(*set, options.coarse));
             if (pixels == options.pixels) {
                 std::vector<LdiRow> rows = measure_times(*set, techniques, truth, options, step("times"));
                 std::move(rows.begin(), rows.end(), std::back_inserter(result.rows));

@@ -23,10 +23,11 @@ namespace frustumscreen::bench {
 struct LdiOptions {
     std::vector<std::size_t> triangles{126'790, 264'247, 630'799}; ///< the report's
     int pixels = 256;                                              ///< along a window's side; the report's
-    int frames = 16;
+    int frames = 12;
     int passes = 3;
     int errors = 8;                         ///< frames that are measured, each through one of the windows
     std::vector<int> resolutions{128, 256}; ///< of the errors by patch, in the largest scene
+    bool coarse = false;                    ///< ours with coarser texels too
     int eyes_in_patch = 1;
     std::uint64_t seed = 1;
 };
@@ -73,8 +74,9 @@ using LdiProgress = std::function<void(const std::string& step, double done)>;
 
 [[nodiscard]] Result<LdiResult> measure_ldi(const settings::Settings& settings, const LdiOptions& options,
                                             const LdiProgress& progress);
-/// Every technique, geometry first.
-[[nodiscard]] Result<std::vector<std::unique_ptr<WindowTechnique>>> window_techniques(WindowSet& set);
+/// Every technique, geometry first. `coarse`: ours with texels of two and four pixels too.
+[[nodiscard]] Result<std::vector<std::unique_ptr<WindowTechnique>>> window_techniques(WindowSet& set,
+                                                                                      bool coarse);
 
 [[nodiscard]] std::string ldi_csv(const LdiResult& result);
 [[nodiscard]] std::string ldi_error_csv(const LdiResult& result);

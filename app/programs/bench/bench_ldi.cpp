@@ -25,6 +25,7 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
         arguments.options.frames = 200;
         arguments.options.errors = 60;
         arguments.options.eyes_in_patch = 8;
+        arguments.options.coarse = true;
         arguments.options.resolutions = {128, 256, 512};
     }
     TRY(const settings::CheckedSettings settings, settings::load_settings(arguments.config));
@@ -71,8 +72,8 @@ BenchCommand ldi_command(CommandLine& app) {
         .capture_default_str();
     command.add_option("--seed", arguments->options.seed, "of the scene and the path").capture_default_str();
     command.add_flag("--long", arguments->is_long,
-                     "a path of 200 frames, 60 of them held against rays, 8 eyes in each patch, and windows "
-                     "of 512 pixels");
+                     "a path of 200 frames, 60 of them held against rays, 8 eyes in each patch, windows of "
+                     "512 pixels and ours with coarser texels");
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
