@@ -1,0 +1,200 @@
+#include "app/ldi/point_patch.h"
+
+#include "app/relief/lanes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+namespace frustumscreen::ldi {
+
+namespace {
+
+using relief::all;
+using relief::Floats;
+using relief::Ints;
+using relief::lanes;
+using relief::load;
+
+constexpr float per_step = 8192.0F; ///< a slope's codes
+/// More than what rounding leaves between splats that touch.
+constexpr float overlap_px = 1.0F / 256.0F;
+
+/// From an image's place and nearness to the picture: homogeneous.
+struct Warp {
+    std::array<float, 3> origin{}, per_column{}, per_row{}, per_nearness{};
+    float slope_per_code = 0.0F; ///< times the nearness
+};
+std::array<float, 3> rounded(const glm::dvec3& vector) {
+    return {static_cast<float>(vector.x), static_cast<float>(vector.y), static_cast<float>(vector.z)};
+}
+Warp warp_between(const PictureMap& from, const PictureMap& to) {
+    return {.origin = rounded(to.homogeneous_from_eye(from.ray(0.5, 0.5))),
+            .per_column = rounded(to.homogeneous_from_eye(from.per_column())),
+            .per_row = rounded(to.homogeneous_from_eye(from.per_row())),
+            .per_nearness = rounded(to.homogeneous(from.eye())),
+            .slope_per_code = static_cast<float>(from.step_share()) / per_step};
+}
+
+struct Target {
+    std::span<std::uint64_t> nearest;
+    int width = 0, height = 0;
+};
+
+FRUSTUMSCREEN_INLINE Ints load_ints(const std::uint32_t* from) {
+    Ints value;
+    std::memcpy(&value, from, sizeof value);
+    return value;
+}
+FRUSTUMSCREEN_INLINE Floats floats(Ints values) {
+    return __builtin_convertvector(values, Floats);
+}
+FRUSTUMSCREEN_INLINE Floats absolute(Floats values) {
+    return values < 0.0F ? -values : values;
+}
+/// First of the pixels 0 to `count` whose middle is not before `places`.
+FRUSTUMSCREEN_INLINE Ints first_pixels(Floats places, int count) {
+    const Floats from_middle =
+        relief::least(relief::most(places - 0.5F, all(-1.0F)), all(static_cast<float>(count)));
+    const Ints toward_zero = __builtin_convertvector(from_middle, Ints);
+    const Ints up = toward_zero - (from_middle > floats(toward_zero)); // a mask is -1
+    return up > 0 ? up : Ints{};
+}
+
+struct Boxes {
+    Ints left, right, top, bottom; ///< the last ones excluded
+    Floats seen;                   ///< nearness for the eye
+    unsigned drawn = 0;            ///< bits
+};
+
+/// Half of a splat's side, from the warp's Jacobian along the surface.
+FRUSTUMSCREEN_INLINE Floats half_side(Floats scale, Floats across, Floats down) {
+    return relief::least(0.5F * scale * (absolute(across) + absolute(down)) + overlap_px,
+                         all(0.5F * static_cast<float>(max_splat_px)));
+}
+
+FRUSTUMSCREEN_INLINE Boxes boxes_at(const PointPatch& patch, std::size_t first, const Warp& warp,
+                                    const Target& target) {
+    const Ints place = load_ints(&patch.places[first]);
+    const Floats column = floats(place & 0xFFFF);
+    const Floats row = floats(place >> 16);
+    const Floats nearness = load(&patch.nearness[first]);
+    const Ints slopes = load_ints(&patch.slopes[first]);
+    const Floats slope_unit = nearness * warp.slope_per_code;
+    const Floats slope_right = floats((slopes << 16) >> 16) * slope_unit;
+    const Floats slope_down = floats(slopes >> 16) * slope_unit;
+    std::array<Floats, 3> at, across, down;
+    for (std::size_t k = 0; k < 3; ++k) {
+        at[k] = all(warp.origin[k]) + column * warp.per_column[k] + row * warp.per_row[k] +
+                nearness * warp.per_nearness[k];
+        across[k] = all(warp.per_column[k]) + slope_right * warp.per_nearness[k];
+        down[k] = all(warp.per_row[k]) + slope_down * warp.per_nearness[k];
+    }
+    const Ints before = (at[2] > nearness * static_cast<float>(min_farness)) & (nearness > 0.0F);
+    const Floats scale = 1.0F / (before ? at[2] : all(1.0F));
+    const Floats u = at[0] * scale;
+    const Floats v = at[1] * scale;
+    const Floats half_width = half_side(scale, across[0] - u * across[2], down[0] - u * down[2]);
+    const Floats half_height = half_side(scale, across[1] - v * across[2], down[1] - v * down[2]);
+    Boxes boxes{.left = first_pixels(u - half_width, target.width),
+                .right = first_pixels(u + half_width, target.width),
+                .top = first_pixels(v - half_height, target.height),
+                .bottom = first_pixels(v + half_height, target.height),
+                .seen = nearness * scale};
+    boxes.drawn = relief::bits_of(before & (boxes.left < boxes.right) & (boxes.top < boxes.bottom));
+    return boxes;
+}
+
+FRUSTUMSCREEN_INLINE void show(std::uint64_t& pixel, std::uint64_t point) {
+    pixel = pixel > point ? pixel : point;
+}
+
+/// Most boxes are at most two pixels wide and high: their four corners are all of their pixels, some of them more than once.
+FRUSTUMSCREEN_INLINE void draw_box(const Boxes& boxes, int lane, std::uint64_t point, const Target& target) {
+    const auto width = static_cast<std::size_t>(target.width);
+    const auto left = static_cast<std::size_t>(boxes.left[lane]);
+    const auto last = static_cast<std::size_t>(boxes.right[lane] - 1);
+    std::uint64_t* const top = &target.nearest[static_cast<std::size_t>(boxes.top[lane]) * width];
+    std::uint64_t* const bottom = &target.nearest[static_cast<std::size_t>(boxes.bottom[lane] - 1) * width];
+    show(top[left], point);
+    show(top[last], point);
+    show(bottom[left], point);
+    show(bottom[last], point);
+    if (last - left > 1 || bottom - top > target.width) {
+        for (std::uint64_t* row = top; row <= bottom; row += width) {
+            for (std::size_t x = left; x <= last; ++x) {
+                show(row[x], point);
+            }
+        }
+    }
+}
+
+FRUSTUMSCREEN_INLINE void draw_points(const PointPatch& patch, const Warp& warp, const Target& target) {
+    for (std::size_t first = 0; first < patch.places.size(); first += lanes) {
+        const Boxes boxes = boxes_at(patch, first, warp, target);
+        for (unsigned left = boxes.drawn; left != 0; left &= left - 1) {
+            const int lane = std::countr_zero(left);
+            draw_box(boxes, lane,
+                     std::uint64_t{std::bit_cast<std::uint32_t>(static_cast<float>(boxes.seen[lane]))}
+                             << 32U |
+                         patch.colours[first + static_cast<std::size_t>(lane)],
+                     target);
+        }
+    }
+}
+
+std::uint32_t code_of(float slope, double step) {
+    const double code =
+        std::clamp(static_cast<double>(slope) / step * static_cast<double>(per_step), -32768.0, 32767.0);
+    return static_cast<std::uint32_t>(
+        static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(code))));
+}
+
+} // namespace
+
+PointPatch point_patch(const LayeredDepth& layers) {
+    PointPatch patch;
+    patch.camera = layers.camera;
+    const PictureMap map(layers.camera);
+    if (!map.usable() || layers.firsts.size() != layers.camera.pixel_count() + 1) {
+        return patch;
+    }
+    for (int y = 0; y < layers.camera.height; ++y) {
+        for (int x = 0; x < layers.camera.width; ++x) {
+            for (const DepthPixel& pixel : layers.at(x, y)) {
+                const double step = map.step_share() * static_cast<double>(pixel.nearness);
+                patch.places.push_back(static_cast<std::uint32_t>(y) << 16U | static_cast<std::uint32_t>(x));
+                patch.nearness.push_back(pixel.nearness);
+                patch.slopes.push_back(code_of(pixel.slope.y, step) << 16U | code_of(pixel.slope.x, step));
+                patch.colours.push_back(std::bit_cast<std::uint32_t>(
+                    glm::u8vec4(pixel.colour.r, pixel.colour.g, pixel.colour.b, 255)));
+            }
+        }
+    }
+    const std::size_t padded = (patch.places.size() + lanes - 1) / lanes * lanes;
+    for (std::vector<std::uint32_t>* values : {&patch.places, &patch.slopes, &patch.colours}) {
+        values->resize(padded);
+    }
+    patch.nearness.resize(padded);
+    return patch;
+}
+
+void PointSplatter::draw(const PointPatch& patch, DepthPicture& picture, relief::Instructions instructions) {
+    nearest_.assign(picture.camera.pixel_count(), 0);
+    const PictureMap from(patch.camera);
+    const PictureMap to(picture.camera);
+    if (from.usable() && to.usable()) {
+        const Warp warp = warp_between(from, to);
+        const Target target{nearest_, picture.camera.width, picture.camera.height};
+        relief::run_with<draw_points>(instructions, patch, warp, target);
+    }
+    for (std::size_t k = 0; k < nearest_.size(); ++k) {
+        picture.nearness[k] = std::bit_cast<float>(static_cast<std::uint32_t>(nearest_[k] >> 32U));
+        picture.colours[k] = std::bit_cast<glm::u8vec4>(static_cast<std::uint32_t>(nearest_[k]));
+    }
+}
+
+} // namespace frustumscreen::ldi

@@ -1,0 +1,48 @@
+/// A patch's depth pixels as points that are warped eight at a time: the quickest picture of a frozen window.
+///
+/// A point covers the box that holds the image of its depth pixel, as in `splat` (layered_depth.h), and each pixel of the
+/// picture shows the nearest of its points.
+///
+/// Frames   window (triangle_world.h).
+/// Units    metres; nearness as in depth_picture.h.
+/// Colour   8-bit sRGB.
+/// Numbers  32 bits: a place is off by less than 1/1000 pixel in pictures of up to 1024 pixels, and slopes are rounded to
+///          1/8192 step (layered_depth.h).
+/// Errors   none: an eye on the window's plane or behind it sees nothing.
+/// Threads  values; any. A splatter is used by one thread at a time. It allocates only for a larger picture than any before.
+/// Source   layered_depth.h; a depth test by the larger of two 64-bit words.
+#pragma once
+
+#include "app/ldi/layered_depth.h"
+#include "app/relief/instructions.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace frustumscreen::ldi {
+
+/// Structure of arrays; padded with points that are nowhere to a multiple of eight.
+struct PointPatch {
+    PictureCamera camera;
+    std::vector<std::uint32_t> places;  ///< column in the lower half, row in the upper
+    std::vector<float> nearness;        ///< at the pixel's middle; 0: nowhere
+    std::vector<std::uint32_t> slopes;  ///< two signed halves: a pixel to the right, a pixel down
+    std::vector<std::uint32_t> colours; ///< red in the lowest byte
+
+    [[nodiscard]] std::uint64_t bytes() const {
+        return places.size() * (sizeof places[0] + sizeof nearness[0] + sizeof slopes[0] + sizeof colours[0]);
+    }
+};
+[[nodiscard]] PointPatch point_patch(const LayeredDepth& layers);
+
+class PointSplatter {
+public:
+    /// Draws the patch into a picture for its camera, in place of what the picture holds.
+    void draw(const PointPatch& patch, DepthPicture& picture,
+              relief::Instructions instructions = relief::best_instructions());
+
+private:
+    std::vector<std::uint64_t> nearest_; ///< of each pixel: nearness above, colour below
+};
+
+} // namespace frustumscreen::ldi
