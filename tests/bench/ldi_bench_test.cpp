@@ -66,8 +66,9 @@ TEST(LdiBench, MeasuresEachTechnique) {
         "42000,0,geometry,"));
     EXPECT_EQ(result->by_patch.size(), ldi::patch_count * result->rows.size());
     EXPECT_EQ(result->pictures.size(), result->rows.size() + 1);
-    for (const char* const name : {"geometry", "geometry_lod", "relief_pack", "ours", "multi_ldi_paper",
-                                   "single_ldi", "ibo", "points", "cube_depth", "view_depth"}) {
+    for (const char* const name :
+         {"geometry", "geometry_lod", "relief_pack", "ours", "patch_relief", "multi_ldi_paper", "single_ldi",
+          "ibo", "points", "cube_depth", "view_depth"}) {
         EXPECT_NE(csv.find(std::string("\n42000,4,") + name + ","), std::string::npos) << name;
     }
     for (const LdiRow& row : result->rows) {

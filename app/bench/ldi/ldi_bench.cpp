@@ -170,10 +170,11 @@ Result<Techniques> window_techniques(WindowSet& set, bool coarse) {
     techniques.push_back(make_window_geometry(set));
     TRY(techniques.emplace_back(), make_window_lod(set));
     techniques.push_back(make_window_relief(set));
-    techniques.push_back(make_window_ours(set, 1));
+    techniques.push_back(make_window_ours(set));
+    techniques.push_back(make_window_patches(set, 1));
     if (coarse) {
-        techniques.push_back(make_window_ours(set, 2));
-        techniques.push_back(make_window_ours(set, 4));
+        techniques.push_back(make_window_patches(set, 2));
+        techniques.push_back(make_window_patches(set, 4));
     }
     techniques.push_back(make_multi_ldi(set));
     techniques.push_back(make_single_ldi(set));

@@ -27,7 +27,7 @@ struct LdiOptions {
     int passes = 3;
     int errors = 8;                         ///< frames that are measured, each through one of the windows
     std::vector<int> resolutions{128, 256}; ///< of the errors by patch, in the largest scene
-    bool coarse = false;                    ///< ours with coarser texels too
+    bool coarse = false;                    ///< patches as reliefs with coarser texels too
     int eyes_in_patch = 1;
     std::uint64_t seed = 1;
 };
@@ -74,7 +74,7 @@ using LdiProgress = std::function<void(const std::string& step, double done)>;
 
 [[nodiscard]] Result<LdiResult> measure_ldi(const settings::Settings& settings, const LdiOptions& options,
                                             const LdiProgress& progress);
-/// Every technique, geometry first. `coarse`: ours with texels of two and four pixels too.
+/// Every technique, geometry first. `coarse`: patches as reliefs with texels of two and four pixels too.
 [[nodiscard]] Result<std::vector<std::unique_ptr<WindowTechnique>>> window_techniques(WindowSet& set,
                                                                                       bool coarse);
 

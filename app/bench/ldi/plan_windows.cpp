@@ -54,10 +54,11 @@ std::optional<LevelOfDetail> coarsest_within(const bake::SourceMesh& mesh, doubl
 }
 
 /// One plan and one part for each patch of the hemisphere.
-class Ours final : public WindowTechnique {
+class PatchReliefs final : public WindowTechnique {
 public:
-    Ours(WindowSet& set, int pixels_per_texel)
-        : set_(set), name_(pixels_per_texel == 1 ? "ours" : fmt::format("ours_{}px", pixels_per_texel)) {
+    PatchReliefs(WindowSet& set, int pixels_per_texel)
+        : set_(set),
+          name_(pixels_per_texel == 1 ? "patch_relief" : fmt::format("patch_relief_{}px", pixels_per_texel)) {
         const double begun_ms = cpu_now_ms();
         ldi::PatchMaker maker(
             set.scene().world, ldi::Hemisphere(frozen_from_m),
@@ -150,8 +151,8 @@ std::unique_ptr<WindowTechnique> make_window_relief(WindowSet& set) {
     return std::make_unique<Planned>(set, "relief_pack", placed, bytes_of(*relief), cpu_now_ms() - begun_ms);
 }
 
-std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set, int pixels_per_texel) {
-    return std::make_unique<Ours>(set, pixels_per_texel);
+std::unique_ptr<WindowTechnique> make_window_patches(WindowSet& set, int pixels_per_texel) {
+    return std::make_unique<PatchReliefs>(set, pixels_per_texel);
 }
 
 } // namespace frustumscreen::bench

@@ -9,7 +9,7 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::unique_ptr<WindowTechnique> make_window_geometry(WindowSet& set);
 [[nodiscard]] Result<std::unique_ptr<WindowTechnique>> make_window_lod(WindowSet& set);
 [[nodiscard]] std::unique_ptr<WindowTechnique> make_window_relief(WindowSet& set);
-/// The exhibit's own, of all nine patches. `pixels_per_texel`: 1 is `ours`.
-[[nodiscard]] std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set, int pixels_per_texel);
+/// Of all nine patches.
+[[nodiscard]] std::unique_ptr<WindowTechnique> make_window_patches(WindowSet& set, int pixels_per_texel);
 
 } // namespace frustumscreen::bench

@@ -4,6 +4,7 @@
 #include "app/bench/measures/timing.h"
 #include "app/ldi/patch_layers.h"
 #include "app/ldi/peers.h"
+#include "app/ldi/point_patch.h"
 #include "app/ldi/triangle_rasterizer.h"
 
 #include <array>
@@ -17,16 +18,20 @@ namespace {
 
 constexpr glm::dvec2 half_extent_m(0.5 * window_side_m);
 
-ldi::CameraView view_of(const WindowSet& set) {
-    return {.half_extent_m = half_extent_m, .width = set.pixels(), .height = set.pixels()};
+/// Of the cameras' pictures, in windows: an eye between two cameras then finds what lies deep behind the window.
+constexpr double our_margin = 1.4;
+
+ldi::CameraView view_of(const WindowSet& set, double margin = 1.0) {
+    return {.half_extent_m = half_extent_m, .width = set.pixels(), .height = set.pixels(), .margin = margin};
 }
 
 /// What all cameras of the hemisphere see.
-std::vector<ldi::DepthPicture> camera_pictures(const WindowSet& set, const ldi::Hemisphere& hemisphere) {
+std::vector<ldi::DepthPicture> camera_pictures(const WindowSet& set, const ldi::Hemisphere& hemisphere,
+                                               double margin = 1.0) {
     ldi::TriangleRasterizer rasterizer;
     std::vector<ldi::DepthPicture> pictures(ldi::camera_count);
     for (std::size_t camera = 0; camera < pictures.size(); ++camera) {
-        pictures[camera].begin(ldi::camera_at(view_of(set), hemisphere.cameras().at(camera)));
+        pictures[camera].begin(ldi::camera_at(view_of(set, margin), hemisphere.cameras().at(camera)));
         rasterizer.draw(*set.scene().world, pictures[camera]);
     }
     return pictures;
@@ -35,11 +40,12 @@ std::span<const ldi::DepthPicture, ldi::camera_count> all_of(const std::vector<l
     return std::span<const ldi::DepthPicture, ldi::camera_count>(pictures);
 }
 /// Of each patch.
-std::vector<ldi::LayeredDepth> all_patches(const WindowSet& set, const ldi::Hemisphere& hemisphere) {
-    const std::vector<ldi::DepthPicture> pictures = camera_pictures(set, hemisphere);
+std::vector<ldi::LayeredDepth> all_patches(const WindowSet& set, const ldi::Hemisphere& hemisphere,
+                                           double margin = 1.0) {
+    const std::vector<ldi::DepthPicture> pictures = camera_pictures(set, hemisphere, margin);
     std::vector<ldi::LayeredDepth> patches;
     for (std::size_t patch = 0; patch < ldi::patch_count; ++patch) {
-        patches.push_back(ldi::patch_layers(hemisphere, patch, all_of(pictures), view_of(set)));
+        patches.push_back(ldi::patch_layers(hemisphere, patch, all_of(pictures), view_of(set, margin)));
     }
     return patches;
 }
@@ -144,6 +150,23 @@ std::unique_ptr<WindowTechnique> make_multi_ldi(WindowSet& set) {
         set, "multi_ldi_paper",
         [hemisphere, patches](const glm::dvec3& eye_m, ldi::DepthPicture& picture) {
             ldi::splat((*patches)[nearest_patch(hemisphere, eye_m)], picture);
+        },
+        sum_of_bytes(*patches), make_ms);
+}
+
+std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set) {
+    const double begun_ms = cpu_now_ms();
+    const ldi::Hemisphere hemisphere(frozen_from_m);
+    auto patches = std::make_shared<std::vector<ldi::PointPatch>>();
+    for (const ldi::LayeredDepth& layers : all_patches(set, hemisphere, our_margin)) {
+        patches->push_back(ldi::point_patch(layers));
+    }
+    const double make_ms = cpu_now_ms() - begun_ms;
+    return std::make_unique<Splatted>(
+        set, "ours",
+        [hemisphere, patches, splatter = std::make_shared<ldi::PointSplatter>()](const glm::dvec3& eye_m,
+                                                                                 ldi::DepthPicture& picture) {
+            splatter->draw((*patches)[nearest_patch(hemisphere, eye_m)], picture);
         },
         sum_of_bytes(*patches), make_ms);
 }

@@ -8,6 +8,7 @@
 
 namespace frustumscreen::bench {
 
+[[nodiscard]] std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set);
 [[nodiscard]] std::unique_ptr<WindowTechnique> make_multi_ldi(WindowSet& set);
 [[nodiscard]] std::unique_ptr<WindowTechnique> make_single_ldi(WindowSet& set);
 [[nodiscard]] std::unique_ptr<WindowTechnique> make_image_based_object(WindowSet& set);

@@ -3,8 +3,9 @@
 /// geometry         the world's triangles again, culled and drawn by the exhibit's plan and renderer; nothing is made.
 /// geometry_lod     the same with the coarsest of meshoptimizer's levels that errs by less than half a window pixel.
 /// relief_pack      the exhibit's own relief, as the bake makes it, in the directions of a frustum's faces.
-/// ours             a patch of the hemisphere as a block relief (app/ldi/patch_relief.h), drawn as the exhibit draws a relief.
-/// ours_2px, ...    the same with texels of so many pixels.
+/// ours             the depth pixels of a patch as points, warped eight at a time with a depth test (app/ldi/point_patch.h).
+/// patch_relief     the patch as a block relief (app/ldi/patch_relief.h), drawn as the exhibit draws a relief.
+/// patch_relief_2px, ...  the same with texels of so many pixels.
 /// multi_ldi_paper  the report's: a layered depth image for each patch, splatted in McMillan's order.
 /// single_ldi       all 29 cameras in one layered depth image.
 /// ibo              an image-based object: layered depth images for the sides of a cube, up to three of which are splatted.

@@ -1,7 +1,8 @@
 """The plots of frustumscreen-bench ldi; `rows` are those of the table at `path`. The plot is an SVG beside it."""
 from panels import Panel, Series, save_column
 
-LOOK = {"ours": (0, "o", 2.5), "multi_ldi_paper": (1, "s", 2.0), "geometry": (4, "x", 2.0), "ours_2px": (0, "D", 1.5), "ours_4px": (0, "^", 1.5), "geometry_lod": (5, "D", 1.5),
+LOOK = {"ours": (0, "o", 2.5), "multi_ldi_paper": (1, "s", 2.0), "geometry": (4, "x", 2.0), "patch_relief": (6, "D", 1.5),
+        "patch_relief_2px": (6, "^", 1.5), "patch_relief_4px": (6, "v", 1.5), "geometry_lod": (5, "D", 1.5),
         "relief_pack": (6, "o", 1.5), "single_ldi": (3, "s", 1.5), "ibo": (7, "s", 1.5), "cube_depth": (2, "^", 1.5),
         "view_depth": (2, "v", 1.5), "points": (7, "^", 1.5)}
 # The multi-LDI report, Fig. 8, 630'799 triangles: seconds a frame with 0 to 4 windows.

@@ -73,7 +73,7 @@ BenchCommand ldi_command(CommandLine& app) {
     command.add_option("--seed", arguments->options.seed, "of the scene and the path").capture_default_str();
     command.add_flag("--long", arguments->is_long,
                      "a path of 200 frames, 60 of them held against rays, 8 eyes in each patch, windows of "
-                     "512 pixels and ours with coarser texels");
+                     "512 pixels and reliefs with coarser texels");
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 
