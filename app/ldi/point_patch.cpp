@@ -55,13 +55,9 @@ FRUSTUMSCREEN_INLINE Floats floats(Ints values) {
 FRUSTUMSCREEN_INLINE Floats absolute(Floats values) {
     return values < 0.0F ? -values : values;
 }
-/// First of the pixels 0 to `count` whose middle is not before `places`.
-FRUSTUMSCREEN_INLINE Ints first_pixels(Floats places, int count) {
-    const Floats from_middle =
-        relief::least(relief::most(places - 0.5F, all(-1.0F)), all(static_cast<float>(count)));
-    const Ints toward_zero = __builtin_convertvector(from_middle, Ints);
-    const Ints up = toward_zero - (from_middle > floats(toward_zero)); // a mask is -1
-    return up > 0 ? up : Ints{};
+/// First of the pixels 0 to `count` whose middle is beyond `places`.
+FRUSTUMSCREEN_INLINE Ints first_pixels(Floats places, float count) {
+    return __builtin_convertvector(relief::least(relief::most(places + 0.5F, Floats{}), all(count)), Ints);
 }
 
 struct Boxes {
@@ -99,17 +95,19 @@ FRUSTUMSCREEN_INLINE Boxes boxes_at(const PointPatch& patch, std::size_t first, 
     const Floats v = at[1] * scale;
     const Floats half_width = half_side(scale, across[0] - u * across[2], down[0] - u * down[2]);
     const Floats half_height = half_side(scale, across[1] - v * across[2], down[1] - v * down[2]);
-    Boxes boxes{.left = first_pixels(u - half_width, target.width),
-                .right = first_pixels(u + half_width, target.width),
-                .top = first_pixels(v - half_height, target.height),
-                .bottom = first_pixels(v + half_height, target.height),
+    const auto width = static_cast<float>(target.width);
+    const auto height = static_cast<float>(target.height);
+    Boxes boxes{.left = first_pixels(u - half_width, width),
+                .right = first_pixels(u + half_width, width),
+                .top = first_pixels(v - half_height, height),
+                .bottom = first_pixels(v + half_height, height),
                 .seen = nearness * scale};
     boxes.drawn = relief::bits_of(before & (boxes.left < boxes.right) & (boxes.top < boxes.bottom));
     return boxes;
 }
 
-FRUSTUMSCREEN_INLINE void show(std::uint64_t& pixel, std::uint64_t point) {
-    pixel = pixel > point ? pixel : point;
+FRUSTUMSCREEN_INLINE std::uint64_t nearer(std::uint64_t pixel, std::uint64_t point) {
+    return pixel > point ? pixel : point;
 }
 
 /// Most boxes are at most two pixels wide and high: their four corners are all of their pixels, some of them more than once.
@@ -119,14 +117,19 @@ FRUSTUMSCREEN_INLINE void draw_box(const Boxes& boxes, int lane, std::uint64_t p
     const auto last = static_cast<std::size_t>(boxes.right[lane] - 1);
     std::uint64_t* const top = &target.nearest[static_cast<std::size_t>(boxes.top[lane]) * width];
     std::uint64_t* const bottom = &target.nearest[static_cast<std::size_t>(boxes.bottom[lane] - 1) * width];
-    show(top[left], point);
-    show(top[last], point);
-    show(bottom[left], point);
-    show(bottom[last], point);
+    // All are read before one is written: where corners are one pixel, no read waits for a write.
+    const std::uint64_t top_left = nearer(top[left], point);
+    const std::uint64_t top_last = nearer(top[last], point);
+    const std::uint64_t bottom_left = nearer(bottom[left], point);
+    const std::uint64_t bottom_last = nearer(bottom[last], point);
+    top[left] = top_left;
+    top[last] = top_last;
+    bottom[left] = bottom_left;
+    bottom[last] = bottom_last;
     if (last - left > 1 || bottom - top > target.width) {
         for (std::uint64_t* row = top; row <= bottom; row += width) {
             for (std::size_t x = left; x <= last; ++x) {
-                show(row[x], point);
+                row[x] = nearer(row[x], point);
             }
         }
     }
