@@ -55,12 +55,12 @@ FRUSTUMSCREEN_INLINE Floats floats(Ints values) {
 FRUSTUMSCREEN_INLINE Floats absolute(Floats values) {
     return values < 0.0F ? -values : values;
 }
-/// For each place the first pixel of 0 to `count` whose middle is not before it.
+/// First of the pixels 0 to `count` whose middle is not before `places`.
 FRUSTUMSCREEN_INLINE Ints first_pixels(Floats places, int count) {
     const Floats from_middle =
         relief::least(relief::most(places - 0.5F, all(-1.0F)), all(static_cast<float>(count)));
     const Ints toward_zero = __builtin_convertvector(from_middle, Ints);
-    const Ints up = toward_zero - (from_middle > floats(toward_zero)); // a true lane is -1
+    const Ints up = toward_zero - (from_middle > floats(toward_zero)); // a mask is -1
     return up > 0 ? up : Ints{};
 }
 
