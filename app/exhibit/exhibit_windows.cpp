@@ -1,15 +1,15 @@
-// Windows on the table: when the button pins one, and what they keep clear of.
+// Windows on the table: when the button pins one, and which things they keep clear of.
 #include "app/exhibit/exhibit.h"
 
 namespace frustumscreen::exhibit {
 
 namespace {
 
-/// A visitor who has looked for a while is told of the button, once.
+/// In this part of a visit a line tells a visitor who has pinned no window about the button.
 constexpr Nanoseconds invites_after = std::chrono::seconds(20);
 constexpr Nanoseconds invites_until = std::chrono::seconds(30);
 
-constexpr double min_share = 0.9; ///< of the artifact's light: a view that can be pinned
+constexpr double min_share = 0.9; ///< a view can be pinned from this share of the artifact's light on
 
 } // namespace
 

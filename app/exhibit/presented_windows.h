@@ -18,9 +18,9 @@ namespace frustumscreen::exhibit {
 struct PresentedWindow {
     std::uint32_t number = 0; ///< counted from 1 on; no two windows have the same one
     std::size_t artifact = 0; ///< index into the catalogue
-    /// How often it came to a place. Its view is aimed at the eye that pinned it from where it comes; a push moves it as it is.
+    /// How often it came to a new place. At each new place its view is aimed at the eye that pinned it; a push moves it unchanged.
     std::uint32_t comings = 0;
-    /// Where it lies. The way that it is turned to is its visitor's.
+    /// Its place, turned to its visitor's side.
     typography::TableRectangle rectangle;
     glm::dvec3 eye_m{0.0};                    ///< when it was pinned
     geometry::RigidTransform table_from_prop; ///< when it was pinned
@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    /// One that was pinned waits until the oldest has gone.
+    /// One more than the settings allow: a new window waits until the oldest has gone.
     std::array<PresentedWindow, settings::max_windows + 1> windows_{};
     std::size_t count_ = 0;
 };

@@ -7,7 +7,7 @@ namespace frustumscreen::exhibit {
 
 namespace {
 
-/// Outwards, of the edge that begins at corner `k`.
+/// The outward normal of the edge that begins at corner `k`.
 glm::dvec2 normal_of(std::span<const glm::dvec2> polygon, std::size_t k) {
     const glm::dvec2 edge = polygon[(k + 1) % polygon.size()] - polygon[k];
     return glm::normalize(glm::dvec2(edge.y, -edge.x));

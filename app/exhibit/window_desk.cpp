@@ -12,25 +12,25 @@ namespace frustumscreen::exhibit {
 
 namespace {
 
-constexpr double border_m = 0.008;      ///< of the lit part, where a window comes
-constexpr double from_shadow_m = 0.020; ///< where a window comes
-constexpr double shadow_dims_m = 0.012; ///< a nearer shadow dims a window; it is dark at 0
-constexpr double thing_dims_m = 0.006;  ///< the same of what lies beside it
-constexpr double clears_in_s = 0.25;    ///< a window that is covered no more
+constexpr double border_m = 0.008;      ///< from a new place to the border of the lit part
+constexpr double from_shadow_m = 0.020; ///< from a new place to the prop's shadow
+constexpr double shadow_dims_m = 0.012; ///< a nearer shadow dims a window; the window is dark at 0
+constexpr double thing_dims_m = 0.006;  ///< the same for anything else beside it
+constexpr double clears_in_s = 0.25;    ///< the time in which an uncovered window becomes light
 constexpr double grid_m = 0.01;
-/// Of the settings' size, where there is no place for a larger one.
+/// Sizes to try, largest first, as shares of the size in the settings.
 constexpr std::array size_shares{1.0, 0.8, 0.65};
-constexpr double touches = 0.9; ///< share of the light below which a window counts as covered
+constexpr double touches = 0.9; ///< a window with less of its light counts as covered
 constexpr Nanoseconds between_searches = std::chrono::milliseconds(200);
-constexpr int push_rounds = 3; ///< a window pushes the next one
+constexpr int push_rounds = 3; ///< pushes from window to window, in one step
 
 /// Costs in metres of distance from the preferred place.
 constexpr double cost_of_being_hidden = 1.0;
 constexpr double cost_of_another_row = 3.0;  ///< for each metre, beside a window of the same artifact
 constexpr double cost_of_other_height = 1.5; ///< for each metre nearer or farther than the prop
-constexpr double cost_of_left = 0.02;        ///< the first comes to the right
-/// An eye sees a window well up to this slope of its view, horizontal by vertical; beyond the other one it would be dark (56
-/// degrees, show/window_show.h).
+constexpr double cost_of_left = 0.02;        ///< so the first window comes to the right
+/// Horizontal by vertical distance from a window to the eye. Up to `usual_slope` the eye sees the window well; `max_slope` is just
+/// below the slope at which the window begins to fade (56 degrees, show/window_show.h).
 constexpr double usual_slope = 1.2;
 constexpr double max_slope = 1.48;
 constexpr double cost_of_slope = 0.3;
@@ -39,12 +39,12 @@ double slope(const typography::TableRectangle& place, const glm::dvec3& eye_m) {
     return glm::distance(place.centre_m, glm::dvec2(eye_m)) / std::max(0.01, eye_m.z);
 }
 
-/// Along the table's axes.
+/// Half of the place's extent along the table's axes.
 glm::dvec2 half_of(const typography::TableRectangle& place) {
     return 0.5 * (place.quarter_turns % 2 == 0 ? place.size_m : glm::dvec2(place.size_m.y, place.size_m.x));
 }
 
-/// Both lie along the table's axes.
+/// The distance between two places that are parallel to the table's axes.
 double clearance_to(const typography::TableRectangle& place, const typography::TableRectangle& other) {
     const glm::dvec2 off = glm::abs(place.centre_m - other.centre_m) - half_of(place) - half_of(other);
     return glm::length(glm::max(off, glm::dvec2(0.0)));
@@ -87,7 +87,7 @@ bool WindowDesk::let_oldest_go(std::uint32_t except) {
     return false;
 }
 
-/// One after the other: the next one is pinned when the latest is seen.
+/// Windows are pinned one at a time: a press counts when the latest window has faded in.
 bool WindowDesk::accepts(const Input& input) const {
     return place_.count > 0 && count_ < windows_.size() && input.shows && !input.gone && input.shadow &&
            std::all_of(all().begin(), all().end(),
@@ -139,7 +139,7 @@ void WindowDesk::push(const Input& input) {
     }
 }
 
-/// A window that was pushed in this step pushes those that were not.
+/// Windows that were pushed in this step push those that were not.
 void WindowDesk::push_each_other() {
     for (const Window& pusher : all()) {
         for (Window& other : all()) {
@@ -230,8 +230,8 @@ std::optional<typography::TableRectangle> WindowDesk::free_place(const Window& w
     return std::nullopt;
 }
 
-/// One search in a step, and no more windows are shown than may be. For a new window the oldest goes if there is no place; one
-/// that lost its place is put away.
+/// Searches for one window in a step, and only while fewer than `count` windows lie on the table. If a new window finds no place, the
+/// oldest goes; a window that lost its place and finds no other one is put away.
 void WindowDesk::look_for_places(MonotonicTime now, const Input& input) {
     const auto shown = std::count_if(all().begin(), all().end(), [](const Window& one) { return one.lies; });
     if (!input.shadow || static_cast<std::size_t>(shown) >= place_.count) {
@@ -307,7 +307,7 @@ void WindowDesk::fade(MonotonicTime now, double dt_s) {
         window.share = std::clamp(window.share + (comes ? dt_s / comes_s : -dt_s / goes_s), 0.0, 1.0);
         const bool dark = window.share <= 0.0 || (window.moves && window.clear <= 0.0);
         if (window.lies && window.moves && !window.goes && dark) {
-            window.lies = false; // it comes again elsewhere
+            window.lies = false; // it will come again at another place
             window.share = 0.0;
             window.looks_since = window.next_look = now;
         }

@@ -1,16 +1,16 @@
 /// The windows on the table: pins what is seen through the prop at a free place, and puts windows away.
 ///
 /// Pin     A press keeps pose and eye. The window comes beside the newest one of the same artifact, so that two states can be
-///         compared, otherwise beside the prop; clear of captions, pictures, the prop's shadow and other windows, where the
-///         reader looks into it. Where it does not fit it is smaller, down to 65 %. If there are as many as may be, or no place
-///         is left, the oldest goes first.
+///         compared, otherwise beside the prop. Its place is clear of captions, pictures, the prop's shadow and other windows,
+///         and the reader looks into it there. Where it does not fit it is smaller, down to 65 %. If `count` windows lie there
+///         already, or no place is left, the oldest goes first.
 /// Push    A prop that stands on the table pushes windows on, as it would push sheets of paper; a window pushes the next one.
 ///         One whose middle is pushed beyond the lit part of the table is put away. A prop that is put down on one covers
 ///         it.
-/// Cover   Whatever touches a window makes it dark, and it dims as that comes near. A window that stays covered for
-///         `covered` fades out and comes again at a free place; without one it is put away.
+/// Cover   Anything that touches a window makes it dark; the window dims as it comes near. A window that stays covered for
+///         `covered` fades out and fades in at a free place; if there is none, it is put away.
 /// Side    When the reader goes to another side of the table, windows turn to that side at new places, as captions do.
-/// Rest    They go when nobody is there, and with their artifact.
+/// Rest    Windows go when nobody is there, and with their artifact.
 /// Frames  table T, metres.
 /// Time    `now` never goes back.
 /// Threads values; one caller. `step` allocates nothing.
@@ -66,9 +66,9 @@ public:
         bool gone = false;                                     ///< no visitor is there
     };
     void step(MonotonicTime now, const Input& input);
-    /// The latest press is undone: what it pinned goes.
+    /// Undoes the latest press: the window that it pinned goes.
     void undo_pin();
-    /// The artifact cannot be drawn any more: its windows go.
+    /// Makes the artifact's windows go: it cannot be drawn any more.
     void drop_artifact(std::size_t artifact);
 
     [[nodiscard]] const PresentedWindows& presented() const { return presented_; }
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] std::span<const typography::TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
     }
-    /// A brightness changes by itself.
+    /// True while a window's brightness changes without input.
     [[nodiscard]] bool changing() const { return changing_; }
 
 private:

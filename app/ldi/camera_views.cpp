@@ -8,11 +8,11 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-/// Of its distance from the window an eye between the cameras is at most this far from one: the tangent of 14.1 degrees
-/// (hemisphere.h).
+/// The largest distance of an eye from the nearest camera, as a share of the eye's distance from the window: the tangent of 14.1
+/// degrees (hemisphere.h).
 constexpr double between_cameras = 0.25;
 
-/// The least of three neighbours, `step` apart, for `count` values from `first` on.
+/// Replaces each of `count` values, `step` apart from `first` on, by the least of it and its two neighbours.
 void min_of_three(float* first, std::size_t count, std::size_t step) {
     float before = first[0];
     for (std::size_t k = 0; k < count; ++k) {

@@ -22,16 +22,16 @@ namespace frustumscreen::ldi {
 /// One camera's depths.
 class CameraDepths {
 public:
-    /// Keeps of each pixel the farthest surface in the 3 x 3 around it, and of squares of 2 to 64 pixels that of them and those
-    /// around them.
+    /// Keeps for each pixel the farthest surface in the 3 x 3 pixels around it, and for each square of 2 to 64 pixels the
+    /// farthest in the 3 x 3 squares around it.
     explicit CameraDepths(const DepthPicture& picture);
 
     enum class Sight { Seen, Hidden, Beside };
-    /// Beside: outside of the picture, or behind the camera. `tolerance_m`: farther than the surface, along the window's normal.
-    /// A hidden place counts as seen too if an eye between the cameras may see past what hides it: if as far beside it as the
-    /// two move against each other in the picture, something as far as the place is seen.
+    /// Beside: outside of the picture, or behind the camera. A place counts as seen up to `tolerance_m` behind the surface, along
+    /// the window's normal. A hidden place counts as seen too if an eye between the cameras may see past the surface that hides
+    /// it: the picture shows something as far away within the distance by which place and surface move against each other.
     [[nodiscard]] Sight sight(const glm::dvec3& point, double tolerance_m) const;
-    /// Of everything between two places at most some ten pixels apart, and around: Hidden if none of it is seen.
+    /// The sight of everything between and around two places at most some ten pixels apart: Hidden if none of it is seen.
     [[nodiscard]] Sight sight_between(const glm::dvec3& from, const glm::dvec3& to, double tolerance_m) const;
     [[nodiscard]] std::uint64_t bytes() const { return 4 * nearness_.size() * sizeof(float) / 3; }
 
@@ -41,7 +41,7 @@ private:
     double per_metre_; ///< farness
     std::vector<float> nearness_;
     double shift_px_; ///< of an eye between cameras, for a nearness of 1
-    /// Of squares of 2^k pixels, k from 1.
+    /// Values of squares of 2^k pixels, k from 1.
     struct Level {
         int columns = 0, rows = 0;
         std::vector<float> nearness;

@@ -19,7 +19,7 @@ bool within_reach(const glm::dvec3& point) {
     return std::fabs(point.x) <= max_coordinate_m && std::fabs(point.y) <= max_coordinate_m &&
            std::fabs(point.z) <= max_coordinate_m;
 }
-/// Above 0, and its square and the inverse of that are finite.
+/// True if the value is above 0, and its square and the inverse of that are finite.
 bool has_length(double length) {
     return length > 1.0 / max_coordinate_m && length < max_coordinate_m;
 }

@@ -77,7 +77,7 @@ public:
     [[nodiscard]] glm::dvec3 homogeneous(const glm::dvec3& point) const {
         return homogeneous_from_eye(point - eye_);
     }
-    /// Of rays, from a pixel to the next one.
+    /// The change of the ray from a pixel to the next one.
     [[nodiscard]] const glm::dvec3& per_column() const { return per_column_; }
     [[nodiscard]] const glm::dvec3& per_row() const { return per_row_; }
     /// A step in depth by a pixel's size where the step is made changes the nearness by this share of it.

@@ -11,9 +11,9 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-/// A place this much behind what a camera sees still counts as seen.
+/// A place counts as seen up to this far behind the surface that a camera sees.
 constexpr double seen_behind = 1.5; // texels
-/// Crossings nearer to each other are one, of triangles that coincide.
+/// Two crossings nearer than this are one: their triangles coincide.
 constexpr float min_distance = 1e-4F; // texels
 
 } // namespace
@@ -143,7 +143,7 @@ void GridBand::sort() {
     for (std::size_t line = 0; line + 1 < lines_.first.size(); ++line) {
         const std::span<std::uint32_t> of_line(order_.data() + lines_.first[line],
                                                lines_.first[line + 1] - lines_.first[line]);
-        for (std::size_t k = 1; k < of_line.size(); ++k) { // stable
+        for (std::size_t k = 1; k < of_line.size(); ++k) { // stable, so that equal heights keep their order
             for (std::size_t at = k;
                  at > 0 && found_[of_line[at - 1]].crossing.w < found_[of_line[at]].crossing.w; --at) {
                 std::swap(of_line[at - 1], of_line[at]);
@@ -174,7 +174,7 @@ void GridBand::drop_hidden() {
                 if (!own.own) {
                     continue;
                 }
-                // More than what linked_cells.cpp allows between neighbours on smooth surfaces.
+                // More than linked_cells.cpp allows between neighbours on smooth surfaces.
                 const float reach = 4.0F + 2.0F * (std::abs(own.slope_u) + std::abs(own.slope_v));
                 for (int y = std::max(0, row - 1); y <= std::min(band_rows, row + 1); ++y) {
                     const std::uint32_t first = lines_.first[lines_.line(std::max(0, column - 1), y)];
@@ -211,7 +211,7 @@ void GridBand::drop_hidden() {
 
 void GridBand::set_colours(const BandScene& scene) {
     if (scene.world.cut_out) {
-        return; // they have them
+        return; // the crossings have their colours already
     }
     for (int row = 0; row <= band_rows; ++row) {
         for (int column = 0; column < lines_.columns; ++column) {

@@ -1,4 +1,4 @@
-// The cells of a band: which ones the surface does not fill, the lines through those, and the blocks.
+// The cells of a band: finds the cells that the surface does not fill, crosses lines through them, and makes the blocks.
 #include "app/ldi/grid_band.h"
 #include "app/ldi/surface_colour.h"
 
@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::uint32_t no_slot = std::numeric_limits<std::uint32_t>::max();
 constexpr int parts = relief::CellCrossings::parts;
-/// A larger distance from the relief is a gap between two surfaces, which finer texels would not close.
+/// A larger distance from the relief is a gap between two surfaces; finer texels would not close it.
 constexpr double max_compared = 4.0; // texels
 
 } // namespace
 
-/// Asks for cells instead of answering.
+/// Notes the cells that the linker asks for, and returns no crossings.
 class GridBand::CellRecorder : public relief::CellLines {
 public:
     explicit CellRecorder(GridBand& band) : band_(band) {}
@@ -155,7 +155,7 @@ void GridBand::sort_cut_cells() {
     order_.assign(fine_first_.begin(), fine_first_.end());
     fine_.resize(fine_found_.size());
     for (const FineFound& found : fine_found_) {
-        // Into its line, behind what is higher or as high.
+        // Inserts it into its line, behind crossings that are as high or higher.
         const std::uint32_t first = fine_first_[found.line];
         std::uint32_t at = order_[found.line]++;
         for (; at > first && fine_[at - 1].w < found.crossing.w; --at) {

@@ -3,9 +3,9 @@
 /// Frames   a direction's grid, texels; rows count from a band's first one.
 /// Threads  values; any.
 /// Method   64 bits. An edge is evaluated from its lexicographically first end, so two triangles with a common edge evaluate it
-///          alike and with opposite signs. On the edge a line belongs to the side of larger v, on an edge along v to that of
-///          smaller u: as if all lines were moved by the same little. So a line crosses a closed surface once, whatever
-///          edges and corners it meets.
+///          alike and with opposite signs. A line on an edge belongs to the side of larger v, on an edge along v to the side of
+///          smaller u, as if all lines moved by the same small step. So a line crosses a closed surface once, whatever edges and
+///          corners it meets.
 #pragma once
 
 #include "app/relief/grid_crossings.h"

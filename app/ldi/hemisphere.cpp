@@ -15,7 +15,7 @@ constexpr std::size_t centre_cameras = 5;
 constexpr std::size_t ring_cameras = 3;
 constexpr std::size_t max_seeing = 13;
 
-/// Of a ring patch.
+/// The middle azimuth of a ring patch.
 double azimuth_of(std::size_t patch) {
     return static_cast<double>(patch - 1) * ring_width_rad;
 }
@@ -83,8 +83,8 @@ constexpr auto neighbours = [] {
     return all;
 }();
 
-/// The cone around the middle that holds a patch. On a patch's side of equal azimuth the distance from the middle has its
-/// largest value at an end, and on one of equal polar angle at its ends, so a corner is farthest.
+/// The directions of a ring patch, with the cone around the middle that holds them. Along each side of a patch the angle from the
+/// middle is largest at an end, so a corner is farthest.
 PatchDirections ring_directions(std::size_t patch, double inner_cos, double outer_cos) {
     PatchDirections directions{std::acos(inner_cos),
                                std::acos(outer_cos),

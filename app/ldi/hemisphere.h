@@ -59,7 +59,7 @@ public:
     [[nodiscard]] double radius_m() const { return radius_m_; }
     [[nodiscard]] double cap_rad() const { return cap_rad_; }
 
-    /// By the eye's direction alone. On a border it is one of its patches, always the same.
+    /// The patch of an eye, by its direction alone. On a border it is one of the two patches, always the same.
     [[nodiscard]] std::optional<std::size_t> patch_of(const glm::dvec3& eye) const;
     [[nodiscard]] const PatchDirections& directions_of(std::size_t patch) const { return directions_[patch]; }
     /// The unit direction in the middle of a patch's azimuths that halves its area.

@@ -9,10 +9,9 @@ namespace frustumscreen::ldi {
 namespace {
 
 constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
-/// Larger differences of a picture's neighbours, in steps, are between surfaces, or on one that is slanted by more than 80.5
-/// degrees.
+/// Neighbours in a picture that differ by more steps lie on two surfaces, or on one that is slanted by more than 80.5 degrees.
 constexpr double max_picture_steps = 6.0;
-/// A picture's pixel is put into the pixels of the image whose middles it covers, but not into farther ones.
+/// A picture's pixel goes into the image's pixels whose middles it covers, up to this far from its own place.
 constexpr double max_half_box_px = 1.5;
 
 /// The step to a neighbour on the same surface, along x or y: the smaller of the two, 0 where there is none.
@@ -31,7 +30,7 @@ double slope_at(const DepthPicture& picture, double step_share, std::size_t pixe
     return std::fabs(least) <= limit ? least : 0.0;
 }
 
-/// The point of a picture's pixel, and the ways on its surface's plane to the next pixels.
+/// The point of a picture's pixel, and the vectors on its surface's plane to the next pixels.
 struct SurfacePoint {
     glm::dvec3 point, across, down;
 };
@@ -58,13 +57,13 @@ glm::dvec2 half_box(const PictureMap& map, const SurfacePoint& surface, const Pi
     return glm::min(0.5 * place.nearness * size, glm::dvec2(max_half_box_px));
 }
 
-/// Along the surface in the image, at most `limit` in length.
+/// The slope of the surface in the image, at most `limit` long.
 glm::dvec2 slope_in(const PictureMap& map, const SurfacePoint& surface, double limit) {
     const glm::dvec3 normal = glm::cross(surface.across, surface.down);
     const double through = glm::dot(normal, surface.point - map.eye());
     const glm::dvec2 slope(glm::dot(normal, map.per_column()), glm::dot(normal, map.per_row()));
     const double size = glm::length(slope);
-    if (size > limit * std::fabs(through)) { // also edge on, where `through` is 0
+    if (size > limit * std::fabs(through)) { // also for a surface seen edge-on, where `through` is 0
         return size > 0.0 && std::isfinite(size) ? std::copysign(limit, through) / size * slope
                                                  : glm::dvec2(0.0);
     }
@@ -191,7 +190,7 @@ PictureCamera camera_around(std::span<const DepthPicture* const> pictures, const
     const double side = std::clamp(grid.max_side, 1, max_picture_side);
     low = glm::max(glm::floor(low), glm::dvec2(-std::floor(0.5 * side)));
     high = glm::max(low + 1.0, glm::min(glm::floor(high) + 1.0, low + side));
-    const glm::dvec2 middle = 0.5 * (low + high); // from the grid's, to the right and down
+    const glm::dvec2 middle = 0.5 * (low + high); // from the grid's middle, to the right and down
     const glm::dvec2 size = high - low;
     return {eye,
             grid.middle + grid.pitch_m * (middle.x * grid.right - middle.y * grid.up),

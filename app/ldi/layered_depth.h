@@ -48,9 +48,9 @@ struct LayeredDepth {
 /// A step is the size of an image's pixel at a point's distance. Two points of a pixel whose depths at its middle differ by no
 /// more than this are one.
 inline constexpr double default_tolerance_steps = 0.5;
-/// Largest slope of a depth pixel, in steps a pixel: 63 degrees. Of a steeper surface a pixel of the image holds a row of points,
-/// and each is drawn for its own part of the surface alone. A smaller limit leaves gaps between them, a larger one has
-/// silhouettes fray (of 1, 1.5, 2 and 3 this had the least error, in colour and depth).
+/// Largest slope of a depth pixel, in steps a pixel: 63 degrees. A pixel of the image holds a row of points of a steeper surface;
+/// each point is drawn for its own part of the surface alone. A smaller limit leaves gaps between them, a larger one frays
+/// silhouettes (of 1, 1.5, 2 and 3 this has the least error, in colour and depth).
 inline constexpr double max_slope_steps = 2.0;
 
 /// Merges depth pictures. Where two see one surface point, the first one's stays.
@@ -87,7 +87,7 @@ struct PixelGrid {
 [[nodiscard]] PictureCamera camera_around(std::span<const DepthPicture* const> pictures,
                                           const glm::dvec3& eye, const PixelGrid& grid);
 
-/// Largest side of a splat, in pixels: an eye that comes close sees gaps, and not a picture that takes seconds.
+/// Largest side of a splat, in pixels. An eye that comes close sees gaps, but its picture does not take seconds.
 inline constexpr double max_splat_px = 16.0;
 
 /// Draws the image into a picture for its camera, over what the picture holds, without a depth test: from far to near, in

@@ -12,7 +12,7 @@ int lines_for(double extent_texels) {
     return (cells + relief::block_cells - 1) / relief::block_cells * relief::block_cells + 1;
 }
 
-/// Axes for u, v and w, as in the bake.
+/// The axes of u, v and w, as in the bake.
 std::array<int, 3> axes_of(std::size_t direction) {
     switch (direction / 2) {
     case 0:

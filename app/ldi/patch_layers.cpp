@@ -12,7 +12,7 @@ PictureCamera camera_at(const CameraView& view, const glm::dvec3& eye) {
     };
     const int width = side(view.width);
     const int height = side(view.height);
-    // Whole pixels of the window's size.
+    // A whole number of pixels, each as large as the window's.
     return camera_through_window(
         eye, view.half_extent_m * glm::dvec2(width, height) / glm::dvec2(view.width, view.height), width,
         height);

@@ -24,8 +24,8 @@ namespace frustumscreen::ldi {
 struct CameraView {
     glm::dvec2 half_extent_m{0.1}; ///< of the window; above 0
     int width = 256, height = 256; ///< pixels across the window
-    /// Of the pictures' rectangle, in windows. The report's cameras see through the window alone (1). What lies deeper behind it than
-    /// the eyes are before it may then be seen by an eye between two cameras, and by neither of them.
+    /// The size of the pictures' rectangle, in windows. The report's cameras see through the window alone (1). Then an eye between
+    /// two cameras may see a place farther behind the window than the eyes are before it, and neither camera sees it.
     double margin = 1.0;
     int max_side = 1024; ///< of a layered depth image, pixels
     double tolerance_steps = default_tolerance_steps;

@@ -27,8 +27,8 @@ public:
     PatchMaker(const PatchMaker&) = delete;
     PatchMaker& operator=(const PatchMaker&) = delete;
 
-    /// The patch of this eye comes first, then the others by their angle from it. A patch that is being made is given up if
-    /// another one is looked at that is not made; what its cameras have seen is kept.
+    /// Puts the patch of this eye first, then the others by their angle from it. If the eye's patch is not made yet, another one
+    /// that is being made is given up; its cameras' pictures stay.
     void look_from(const glm::dvec3& eye);
     /// Does a piece of work: about so many triangles. False once all patches are made.
     bool step(std::size_t triangles = 20'000);
@@ -39,7 +39,7 @@ public:
     }
     [[nodiscard]] std::size_t made_count() const;
     [[nodiscard]] const Hemisphere& hemisphere() const { return hemisphere_; }
-    /// Of all that it holds, patches that are still in use elsewhere among them; not of the world.
+    /// Memory of all that it holds, with patches that are still in use elsewhere and without the world.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:

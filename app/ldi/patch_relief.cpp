@@ -122,7 +122,7 @@ void PatchBuild::for_each_band(const FacingTriangle& facing, const Visit& visit)
             return matrix[0].y * point.x + matrix[1].y * point.y + matrix[2].y * point.z + matrix[3].y;
         };
         const auto [low, high] = std::minmax({row(corners[0]), row(corners[1]), row(corners[2])});
-        // A line between two bands is in both.
+        // A line between two bands belongs to both.
         const double first = std::max(0.0, std::ceil(low / relief::block_cells) - 1.0);
         const double last = std::min(grid.bands() - 1.0, std::floor(high / relief::block_cells));
         for (double band = first; band <= last; band += 1.0) {
@@ -226,7 +226,7 @@ void PatchBuild::coarsen(double done_share) {
     const double over =
         static_cast<double>(grown_bytes()) / static_cast<double>(limits_.max_bytes) / done_share;
     band_ = {};
-    is_refined_ = true; // the memory decides
+    is_refined_ = true; // the memory limits the texel: no second try
     begin_grids(texel_m_ * std::clamp(std::sqrt(over), 1.2, 8.0));
 }
 
@@ -235,7 +235,7 @@ void PatchBuild::finish() {
                              ? 0.0
                              : std::sqrt(roughness_.squares / static_cast<double>(roughness_.lines)) *
                                    texel_m_ / limits_.texel_m;
-    constexpr std::uint64_t finer = 4; // times as many bytes, with half the texel
+    constexpr std::uint64_t finer = 4; // half the texel takes so many times the bytes
     if (!is_refined_ && error > limits_.max_error_texels && finer * grown_bytes() <= limits_.max_bytes) {
         is_refined_ = true;
         begin_grids(0.5 * texel_m_);

@@ -44,8 +44,8 @@ struct PatchRelief {
 struct PatchLimits {
     glm::dvec2 half_extent_m{0.1}; ///< of the window, above 0
     double texel_m = 0.001;        ///< wanted: of a pixel that lights the window
-    /// Of one patch: its blocks, and what is kept while it is made. With less than that, its texels become larger. Beside it are
-    /// 20 bytes for each triangle that faces the patch, and 200 for each one of a row of blocks.
+    /// Memory for one patch: its blocks, and the data that is kept while it is made. If it does not suffice, texels become larger.
+    /// 20 bytes for each triangle that faces the patch, and 200 for each triangle of a row of blocks, come on top.
     std::uint64_t max_bytes = std::uint64_t{64} << 20U;
     /// A patch with a larger `PatchRelief::error_texels` is made again with finer texels, once, if the memory allows it.
     double max_error_texels = 0.5;
@@ -104,11 +104,11 @@ private:
     PatchRelief made_;
 };
 
-/// Of pictures with a pixel a texel.
+/// The views of all cameras, in pictures with a pixel a texel.
 [[nodiscard]] CameraViews camera_views_for(const TriangleWorld& world, const Hemisphere& hemisphere,
                                            const PatchLimits& limits);
 
-/// The whole work at once.
+/// Makes a patch at once.
 [[nodiscard]] PatchRelief make_patch_relief(const TriangleWorld& world, const Hemisphere& hemisphere,
                                             std::size_t patch, const PatchLimits& limits);
 

@@ -8,10 +8,10 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-/// Eyes come this much nearer or farther than the frozen one, as a share of its distance.
+/// Eyes may be this share of the frozen eye's distance nearer or farther than that eye.
 constexpr double distance_share = 0.1;
 
-/// Eyes all over the patch, its borders and corners among them.
+/// Sample eyes all over the patch, with its borders and corners.
 std::vector<glm::dvec3> eyes_of(const Hemisphere& hemisphere, std::size_t patch) {
     const PatchDirections& directions = hemisphere.directions_of(patch);
     constexpr int polar_steps = 4;
@@ -50,13 +50,12 @@ std::array<glm::dvec3, 3> corners_of(const TriangleWorld& world, std::uint32_t t
             glm::dvec3(world.positions[indices[2]])};
 }
 
-/// Directions that see a surface with this unit normal, patch frame.
+/// Adds the directions that see a surface with this unit normal, patch frame.
 void add_directions(FacingTriangle& facing, const glm::dvec3& normal) {
-    constexpr double preferred = 0.05;     // the direction towards the eyes: in cosine
+    constexpr double preferred = 0.05;     // cosine in favour of the direction towards the eyes
     constexpr double shared_cosine = 0.06; // as the bake's
-    constexpr double rim_cosine =
-        0.45; // a direction that sees it worse by more does not even continue its own there
-    constexpr double min_cosine = 0.12; // as the bake's
+    constexpr double rim_cosine = 0.45;    // a direction that sees it worse by more does not cross it at all
+    constexpr double min_cosine = 0.12;    // as the bake's
     std::array<double, grid_directions> merit{};
     double best = 0.0;
     for (std::size_t k = 0; k < grid_directions; ++k) {
@@ -86,7 +85,7 @@ PatchView::PatchView(const Hemisphere& hemisphere, std::size_t patch, const glm:
       cone_sin_(std::sin(hemisphere.directions_of(patch).cone_rad)) {}
 
 unsigned PatchView::sides_seen(const glm::dvec3& normal, const glm::dvec3& corner) const {
-    // The eyes lie in a cone around the axis, about as far away as the radius.
+    // The eyes lie in a cone around the axis, at about the radius from the window.
     const double cosine = glm::dot(normal, axis_);
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     const double middle = cosine * cone_cos_;

@@ -1,4 +1,4 @@
-/// From where a patch is seen, and what of a world it shows.
+/// The eyes of a patch, and the part of a world that they see.
 ///
 /// Frames   window (triangle_world.h); patch: the axes of the patch's image plane, metres, origin in the window's middle. Depths
 ///          are multiplied by the sine of the largest angle between a ray that the patch shows and the plane's normal: what is

@@ -52,7 +52,7 @@ SideWindow side_window(const Box& box, std::size_t side) {
     return window;
 }
 
-/// The rectangle through which a camera at `to_side` before the side and `beside` its middle sees the whole box.
+/// Half the extent of the rectangle through which a camera, `to_side` before the side and `beside` its middle, sees the whole box.
 double reach(double half, double depth, double to_side, double beside) {
     return std::max(half, (half * to_side + beside * depth) / (to_side + depth));
 }

@@ -1,4 +1,4 @@
-/// Two peers of the multi-LDI, of the same pieces: one layered depth image for all eyes, and an image-based object.
+/// Two peers of the multi-LDI, made of the same pieces: one layered depth image for all eyes, and an image-based object.
 ///
 /// Frames   window (triangle_world.h).
 /// Units    metres, pixels.
@@ -36,7 +36,7 @@ struct ImageBasedObject {
 
 /// Cameras of a side: one on its axis, four around it.
 inline constexpr std::size_t side_camera_count = 5;
-/// Of the four, from the axis: a cap of 120 degrees has half of its area inside of them.
+/// The angle of the four from the axis: half of the area of a cap of 120 degrees is nearer to the axis.
 inline constexpr double side_camera_polar_rad = 0.7227342478134157; ///< acos(3/4)
 
 /// `radius_m`: from a side's middle to its cameras. Pixels on the sides are as large as on the window, but at most `max_side` a

@@ -19,14 +19,14 @@ using relief::Ints;
 using relief::lanes;
 using relief::load;
 
-constexpr float per_step = 8192.0F; ///< a slope's codes
-/// More than what rounding leaves between splats that touch.
+constexpr float per_step = 8192.0F; ///< codes of a slope
+/// More than rounding may leave between splats that touch.
 constexpr float overlap_px = 1.0F / 256.0F;
 
-/// From an image's place and nearness to the picture: homogeneous.
+/// The warp from an image's place and nearness to the picture, homogeneous.
 struct Warp {
     std::array<float, 3> origin{}, per_column{}, per_row{}, per_nearness{};
-    float slope_per_code = 0.0F; ///< times the nearness
+    float slope_per_code = 0.0F; ///< for a nearness of 1
 };
 std::array<float, 3> rounded(const glm::dvec3& vector) {
     return {static_cast<float>(vector.x), static_cast<float>(vector.y), static_cast<float>(vector.z)};
@@ -61,12 +61,12 @@ FRUSTUMSCREEN_INLINE Ints first_pixels(Floats places, float count) {
 }
 
 struct Boxes {
-    Ints left, right, top, bottom; ///< the last ones excluded
+    Ints left, right, top, bottom; ///< pixels; right and bottom excluded
     Floats seen;                   ///< nearness for the eye
-    unsigned drawn = 0;            ///< bits
+    unsigned drawn = 0;            ///< bit k: lane k has a box
 };
 
-/// Half of a splat's side, from the warp's Jacobian along the surface.
+/// Half the side of a splat, from the warp's Jacobian along the surface.
 FRUSTUMSCREEN_INLINE Floats half_side(Floats scale, Floats across, Floats down) {
     return relief::least(0.5F * scale * (absolute(across) + absolute(down)) + overlap_px,
                          all(0.5F * static_cast<float>(max_splat_px)));
@@ -110,7 +110,7 @@ FRUSTUMSCREEN_INLINE std::uint64_t nearer(std::uint64_t pixel, std::uint64_t poi
     return pixel > point ? pixel : point;
 }
 
-/// Most boxes are at most two pixels wide and high: their four corners are all of their pixels, some of them more than once.
+/// Most boxes are at most two pixels wide and high: their four corners are all of their pixels, some of them twice or four times.
 FRUSTUMSCREEN_INLINE void draw_box(const Boxes& boxes, int lane, std::uint64_t point, const Target& target) {
     const auto width = static_cast<std::size_t>(target.width);
     const auto left = static_cast<std::size_t>(boxes.left[lane]);

@@ -21,11 +21,11 @@
 
 namespace frustumscreen::ldi {
 
-/// Structure of arrays; padded with points that are nowhere to a multiple of eight.
+/// A structure of arrays; empty points pad it to a multiple of eight.
 struct PointPatch {
     PictureCamera camera;
     std::vector<std::uint32_t> places;  ///< column in the lower half, row in the upper
-    std::vector<float> nearness;        ///< at the pixel's middle; 0: nowhere
+    std::vector<float> nearness;        ///< at the pixel's middle; 0: an empty point
     std::vector<std::uint32_t> slopes;  ///< two signed halves: a pixel to the right, a pixel down
     std::vector<std::uint32_t> colours; ///< red in the lowest byte
 

@@ -8,7 +8,7 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-/// What rounding may leave between splats that touch.
+/// As much as rounding may leave between splats that touch.
 constexpr double overlap_px = 1.0 / 1024.0;
 
 /// McMillan and Bishop's warp from an image to a picture: homogeneous, linear in the image's place and nearness.
@@ -20,7 +20,7 @@ struct Warp {
           per_row(to.homogeneous_from_eye(from.per_row())), per_nearness(to.homogeneous(from.eye())) {}
 };
 
-/// First of the pixels 0 to `count` whose middle is not before `place`.
+/// The first pixel of 0 to `count` whose middle is not before `place`.
 int first_pixel(double place, int count) {
     const double from_middle = std::clamp(place - 0.5, -1.0, static_cast<double>(count));
     const int toward_zero = static_cast<int>(from_middle);
@@ -33,7 +33,7 @@ template <bool by_depth>
                                         DepthPicture& picture) {
     const auto nearness = static_cast<double>(pixel.nearness);
     const glm::dvec3 place = base + nearness * warp.per_nearness;
-    if (!(place.z > min_farness * nearness)) { // before the eye by less than a millionth, or behind it
+    if (!(place.z > min_farness * nearness)) { // too near to the eye, or behind it
         return;
     }
     const double scale = 1.0 / place.z;
@@ -70,9 +70,11 @@ struct Sheet {
     int first = 0, end = 0, step = 1;
 };
 
-/// Toward the epipole if it is the eye's own picture, away from it if the eye is behind the image's camera.
+/// The two sheets along one axis: towards the epipole if the eye is before the image's camera, away from it if it is behind.
 std::array<Sheet, 2> sheets(double place, double farness, int count) {
-    int split = (place < 0.0) == std::signbit(farness) ? count : 0; // far to one side, perhaps infinitely far
+    int split = (place < 0.0) == std::signbit(farness)
+                    ? count
+                    : 0; // the epipole is far to one side, perhaps infinitely far
     if (std::fabs(place) < (count + 1.0) * std::fabs(farness)) {
         split = first_pixel(place / farness, count);
     }

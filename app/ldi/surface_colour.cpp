@@ -19,7 +19,7 @@ std::array<double, 3> shares_at(const std::array<glm::dvec3, 3>& corners, const 
     const double to_b = glm::dot(from_corner, across);
     const double to_c = glm::dot(ray, glm::cross(from_corner, ab));
     if (determinant == 0.0 || std::fmax(std::fabs(to_b), std::fabs(to_c)) > 1e6 * std::fabs(determinant)) {
-        return {1.0, 0.0, 0.0}; // seen edge on
+        return {1.0, 0.0, 0.0}; // the ray meets it edge-on
     }
     const double b = std::max(0.0, to_b / determinant);
     const double c = std::max(0.0, to_c / determinant);
@@ -31,7 +31,7 @@ glm::u8vec4 rounded(const glm::vec4& codes) {
     return glm::u8vec4(glm::clamp(codes, 0.0F, 255.0F) + 0.5F);
 }
 
-/// Bilinear between the middles of texels; repeats.
+/// The texture's colour, bilinear between the middles of texels; the texture repeats.
 glm::u8vec4 texel_at(const image::Image8& texture, const glm::dvec2& place) {
     if (texture.width < 1 || texture.height < 1 || !std::isfinite(place.x + place.y)) {
         return glm::u8vec4(255);

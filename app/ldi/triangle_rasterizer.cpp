@@ -12,34 +12,35 @@ namespace frustumscreen::ldi {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-/// With ten bits behind the point 23 bits, so differences of corners are exact in 32 bits.
+/// With ten bits behind the point a corner has 23 bits, so differences of corners are exact in 32 bits.
 constexpr double guard_px = 8191.0;
-constexpr std::uint16_t needs_cutting = 0x8000; ///< a column
+constexpr std::uint16_t needs_cutting =
+    0x8000; ///< a column: the corner is beyond the guard, or behind the eye
 
-/// To 1/1024: the last bit of doubles of this size.
+/// Rounds to 1/1024, the last bit of doubles of the added size.
 float rounded(double pixels) {
     constexpr double size = 0x1.8p42;
     return static_cast<float>(pixels + size - size);
 }
-/// First of the pixels 0 to `count` whose middle is not before `place`.
+/// The first pixel of 0 to `count` whose middle is not before `place`.
 int first_pixel(float place, int count) {
     const float from_middle = std::clamp(place - 0.5F, -1.0F, static_cast<float>(count));
     const int toward_zero = static_cast<int>(from_middle);
     return std::max(0, toward_zero + (from_middle > static_cast<float>(toward_zero) ? 1 : 0));
 }
 
-/// Homogeneous places of a triangle that is cut by planes: each adds a corner at most.
+/// Homogeneous places of a triangle that planes cut; each plane adds at most one corner.
 struct Polygon {
     std::array<glm::dvec3, 8> places{};
     std::size_t count = 0;
 };
 
-/// Where the line is cut whose ends have these signed distances from a plane.
+/// The place where a plane cuts a line, by the signed distances of the line's ends.
 glm::dvec3 between(const glm::dvec3& inside, const glm::dvec3& outside, double inside_by, double outside_by) {
     return inside + inside_by / (inside_by - outside_by) * (outside - inside);
 }
 
-/// The part where the product with `plane` is at least `least`. Two triangles' common edge is cut in the same places.
+/// The part whose product with `plane` is at least `least`. The common edge of two triangles is cut in the same places.
 Polygon cut(const Polygon& polygon, const glm::dvec3& plane, double least) {
     Polygon kept;
     for (std::size_t k = 0; k < polygon.count; ++k) {
@@ -52,14 +53,15 @@ Polygon cut(const Polygon& polygon, const glm::dvec3& plane, double least) {
         }
         if (from_side >= 0.0 && to_side < 0.0) {
             kept.places[kept.count++] = between(from, to, from_side, to_side);
-        } else if (from_side < 0.0 && to_side >= 0.0) { // as for the triangle on the edge's other side
+        } else if (from_side < 0.0 &&
+                   to_side >= 0.0) { // from the inside too, as for the triangle on the other side of the edge
             kept.places[kept.count++] = between(to, from, to_side, from_side);
         }
     }
     return kept;
 }
 
-/// A triangle that one side of the picture, or the eye, has outside.
+/// True if the triangle lies beyond one side of the picture, or behind the eye.
 bool is_beside(const Polygon& triangle, const PictureCamera& camera) {
     bool left = true;
     bool right = true;
@@ -202,7 +204,7 @@ void TriangleRasterizer::draw_cut(const Target& target, std::uint32_t triangle) 
 }
 
 void TriangleRasterizer::find_colours(const Target& target) {
-    // Pixels ask for triangles in any order, so what they need is fetched some pixels ahead.
+    // Pixels ask for triangles in any order, so their data is prefetched some pixels ahead.
     constexpr std::size_t indices_ahead = 24;
     constexpr std::size_t corners_ahead = 12;
     const TriangleWorld& world = target.world;
@@ -241,7 +243,7 @@ void TriangleRasterizer::draw_triangles(const Target& target, std::size_t first,
     const std::size_t count = world.triangle_count();
     for (std::size_t k = first; k < end; ++k) {
         const std::uint32_t* indices = &world.indices[3 * k];
-        if (k + triangles_ahead < count) { // a mesh in no order of places asks for any
+        if (k + triangles_ahead < count) { // the indices of an unsorted mesh may point anywhere
             for (std::size_t j = 0; j < 3; ++j) {
                 __builtin_prefetch(cells_.data() + indices[3 * triangles_ahead + j]);
             }

@@ -30,7 +30,7 @@ public:
     /// and picture stay as they are until the last part is drawn.
     void begin_depths(const TriangleWorld& world, const DepthPicture& picture);
     void draw_depths(const TriangleWorld& world, DepthPicture& picture, std::size_t first, std::size_t count);
-    /// Of memory that it keeps.
+    /// The memory that it keeps.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:

@@ -1,4 +1,4 @@
-/// What stands behind a window when it is frozen, as triangles.
+/// The world behind a window when it is frozen, as triangles.
 ///
 /// Frames   window: metres; origin in the window's middle, x to the right, y away from the viewer (up in the window's
 ///          picture), z the normal towards the viewers. An eye has z > 0; the world lies mostly at z < 0, but may reach

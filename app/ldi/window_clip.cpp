@@ -8,7 +8,7 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-/// Of a side's outward axis: x, -x, y, -y.
+/// A component along the outward axis of a side: x, -x, y, -y.
 double outward(const glm::dvec3& point, std::size_t side) {
     const double along = side < 2 ? point.x : point.y;
     return side % 2 == 0 ? along : -along;

@@ -3,7 +3,7 @@
 /// Frames   window (triangle_world.h). Units: metres.
 /// Threads  immutable; any.
 /// Method   a point at height z is seen from an eye beside it through the window's side at h if it lies below h + z k, where
-///          k = (eye - h) / eye.z is the slope of the line from the eye over that side. Of a patch's eyes the least k counts
+///          k = (eye - h) / eye.z is the slope of the line from the eye over that side. The least k of a patch's eyes counts
 ///          behind the window and the largest one before it, so the part that is not seen across a side is convex: a
 ///          triangle whose corners all lie in it is not seen.
 #pragma once

@@ -180,7 +180,7 @@ int FacePass::light_layers(const Lit& lit) const {
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
-    // The shaders' positions are invariant. An offset by the slope would let through what lies behind a steep outline.
+    // The shaders' positions are invariant. An offset by the slope would light surfaces behind a steep outline.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(0.0F, -2.0F);
     set_channels(channels_of(plan, lit.raster));

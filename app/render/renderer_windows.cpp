@@ -1,4 +1,4 @@
-// The part of the renderer that draws windows: after all else, and only in their own pixels, so that no other pixel changes.
+// The part of the renderer that draws windows. They come after everything else and change only their own pixels.
 
 #include "app/render/renderer.h"
 

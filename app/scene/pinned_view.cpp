@@ -13,7 +13,7 @@ namespace frustumscreen::scene {
 
 namespace {
 
-/// Of the window's half width as the eye sees it: what a world fills of it.
+/// The share of the window's half width, as the eye sees it, that a world fills.
 constexpr double filled_share = 0.9;
 /// The world's nearest point lies this far below the table, in the window's widths.
 constexpr double gap_share = 1e-3;
@@ -62,8 +62,8 @@ template <typename Take> void for_each_point(std::span<const Part> parts, const 
     }
 }
 
-/// Turns a direction into another one: first about the vertical, then about the horizontal axis across it. One that is
-/// vertical has no azimuth: then there is no turn about the vertical.
+/// Turns a direction into another one: first about the vertical, then about the horizontal axis across it. A vertical direction
+/// has no azimuth; then there is no turn about the vertical.
 glm::dquat level_turn(const glm::dvec3& from, const glm::dvec3& to) {
     constexpr double vertical = 1e-9;
     const auto azimuth = [](const glm::dvec3& d) { return std::atan2(d.y, d.x); };
@@ -71,7 +71,7 @@ glm::dquat level_turn(const glm::dvec3& from, const glm::dvec3& to) {
     const bool upright = across(from) <= vertical || across(to) <= vertical;
     const double yaw = upright ? 0.0 : azimuth(to) - azimuth(from);
     const double towards = across(to) > vertical ? azimuth(to) : azimuth(from);
-    const glm::dvec3 axis(-std::sin(towards), std::cos(towards), 0.0); // to the left of the way there
+    const glm::dvec3 axis(-std::sin(towards), std::cos(towards), 0.0); // to the left of the direction
     const double pitch = std::atan2(from.z, across(from)) - std::atan2(to.z, across(to));
     return glm::angleAxis(pitch, axis) * glm::angleAxis(yaw, glm::dvec3(0.0, 0.0, 1.0));
 }
@@ -167,7 +167,7 @@ std::optional<PinnedView> pin_view(const PinRequest& request) {
     }
     const glm::dquat turn = level_turn(to_prop, middle - request.eye_m);
     const glm::dvec3 eye = view.table_from_window.inverse().point(request.eye_m);
-    // A world beside the prop's middle may lie beside the window: then it is moved into its middle.
+    // A world beside the prop's middle may lie beside the window; then it moves into the window's middle.
     glm::dvec3 ray = glm::normalize(turn * to_world);
     const auto clearance_of = [&](const glm::dvec3& in_table) {
         return clearance(view.surface, eye, view.table_from_window.inverse().direction(in_table));

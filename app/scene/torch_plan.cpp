@@ -68,15 +68,15 @@ IndexRange lit_triangles(const LevelTriangles& level, const IndexRange& range, c
     return {first, static_cast<std::uint32_t>(indices.size()) - first};
 }
 
-/// Along an edge of a level's box: parts of about a centimetre.
+/// The number of parts along an edge of a level's box; each is about a centimetre long.
 glm::ivec3 parts_of_box(const glm::dvec3& size_m) {
     constexpr double part_m = 0.01;
     constexpr double max_parts = 12.0;
     return glm::ivec3(glm::clamp(glm::ceil(size_m / part_m), glm::dvec3(1.0), glm::dvec3(max_parts)));
 }
 
-/// The pixels that a beam may light of a level, within `draw`: around those of its box's small parts that meet the beam. Adds
-/// them to `tiles`, and returns the rectangle around them.
+/// Finds the pixels of a level that a beam may light, within `draw`: those around the small parts of the level's box that meet the
+/// beam. Adds them to `tiles`, and returns the rectangle around them.
 PixelRectangle light_pixels(const PlacedLevel& level, const Draw& draw, const BeamPlanes& planes,
                             const geometry::Pinhole& pinhole, LitTiles& tiles) {
     const geometry::Box box = level.placed_box();
@@ -107,8 +107,8 @@ PixelRectangle light_pixels(const PlacedLevel& level, const Draw& draw, const Be
     return lit;
 }
 
-/// How a pixel's depth tells the place. Clip coordinates are linear in the place, and only the depth of what lies on one ray
-/// differs: the inverse map's last row has no x and no y.
+/// Sets the map from a pixel's depth to the place. Clip coordinates are linear in the place, and places on one ray differ only in
+/// depth: the inverse map's last row has no x and no y.
 void find_places(const glm::dmat4& torch_from_placed, const Draw& draw, const geometry::Pinhole& pinhole,
                  TorchFace& face) {
     const glm::dmat4 torch_from_clip = torch_from_placed * glm::inverse(draw.clip_from_placed);

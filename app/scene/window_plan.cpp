@@ -15,14 +15,14 @@ namespace frustumscreen::scene {
 
 namespace {
 
-/// Half a pixel keeps clear of every pixel that the prop touches; as much again is for its feathered edge.
+/// Half a pixel keeps windows out of every pixel that the prop touches; another half is for the prop's feathered edge.
 constexpr double cover_margin_px = 1.0;
 constexpr std::size_t corners_of_pixel = 4;
 
 /// The prop's outline in the projector's picture.
 struct Cover {
     bool all = false;   ///< the prop reaches to the projector or behind it
-    PixelRectangle lit; ///< around it
+    PixelRectangle lit; ///< around the outline
     std::array<glm::vec4, corners_of_pixel * geometry::max_corners> clip{};
     std::size_t count = 0; ///< of corners
 };
@@ -50,7 +50,7 @@ std::size_t find_hull(std::span<glm::dvec2> points, std::span<glm::dvec2> hull) 
     for (std::size_t k = points.size() - 1; k-- > 0;) {
         add(points[k], upper);
     }
-    return count - 1; // the first point came again
+    return count - 1; // the first point is at the end again
 }
 
 Cover cover_of(const geometry::PropShape& prop, const PlanView& view) {
@@ -62,7 +62,7 @@ Cover cover_of(const geometry::PropShape& prop, const PlanView& view) {
     }
     const geometry::RigidTransform projector_from_prop =
         view.table_from_projector.inverse() * view.table_from_prop;
-    const geometry::Pinhole ideal = view.projector.ideal(); // the lens bends what is drawn
+    const geometry::Pinhole ideal = view.projector.ideal(); // the lens bends the draws later
     std::array<glm::dvec2, most> points{};
     std::size_t count = 0;
     for (const glm::dvec3& corner : prop.corners) {
@@ -87,7 +87,7 @@ Cover cover_of(const geometry::PropShape& prop, const PlanView& view) {
     return cover;
 }
 
-/// The picture of the prop's eye, with the window in the prop's place.
+/// The view of a window: as the prop's, with the window in the prop's place.
 PlanView through(const PlacedWindow& window, const PlanView& view) {
     PlanView seen{.projector = view.projector,
                   .table_from_projector = view.table_from_projector,
@@ -98,7 +98,7 @@ PlanView through(const PlacedWindow& window, const PlanView& view) {
                   .picture = view.picture,
                   .dimming_eyes_m = view.dimming_eyes_m};
     if (seen.light) {
-        seen.light->hull.reset(); // of what the prop shows
+        seen.light->hull.reset(); // the hull is that of the prop's world
     }
     return seen;
 }

@@ -1,5 +1,5 @@
-/// What pinned windows show in a picture. Each is planned as a prop of one face would be (`plan_frame`), into a plan of its
-/// own, so that it changes nothing of the prop's: neither its samples, nor its tiles, nor its light.
+/// Plans pinned windows in a picture. Each is planned as a prop of one face (`plan_frame`), into a plan of its own, so the prop's
+/// samples, tiles and light stay as they are.
 ///
 /// Cover    the prop is nearer to the projector than the table is. Where its outline in the picture, a pixel wider, meets a
 ///          window, the window is not drawn.

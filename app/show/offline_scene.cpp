@@ -29,7 +29,7 @@ scene::SceneRequest request_of(const OfflineSetup& setup, const settings::Settin
     request.samples = samples_of(options, whole);
     request.sample_headroom = render::default_samples;
     request.cull_kinds = options.cull_kinds;
-    if (options.windows > 0) { // they turn other sides to the eye than the prop does
+    if (options.windows > 0) { // a window may show other sides to the eye than the prop does
         request.cull_kinds &= ~static_cast<unsigned>(scene::UnseenTriangles);
     }
     if (!options.views.empty()) {

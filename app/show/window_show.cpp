@@ -14,7 +14,7 @@ namespace frustumscreen::show {
 
 namespace {
 
-/// Of its light, for an eye: 1 up to full_deg from the window's normal, 0 from limit_deg on.
+/// The share of a window's light for an eye: 1 up to full_deg from the window's normal, 0 from limit_deg on.
 double share_for(const glm::dvec3& eye_m, const glm::dvec2& middle_m) {
     const double across = glm::distance(glm::dvec2(eye_m), middle_m);
     const double slant_deg = glm::degrees(std::atan2(across, eye_m.z));
@@ -22,7 +22,7 @@ double share_for(const glm::dvec3& eye_m, const glm::dvec2& middle_m) {
                           (WindowShow::limit_deg - WindowShow::full_deg));
 }
 
-/// Indices of the largest level of each cell, or of the artifact.
+/// The indices of the largest level of an artifact or a cell.
 std::size_t max_indices_of(const pack::PackOutline& outline, const scene::ScenePlan& plan) {
     std::uint64_t triangles = 0;
     for (const std::uint32_t level : plan.levels) {
@@ -31,7 +31,7 @@ std::size_t max_indices_of(const pack::PackOutline& outline, const scene::SceneP
     return static_cast<std::size_t>(3 * triangles);
 }
 
-/// A line that is narrower than a pixel may lie between two rows of them.
+/// The width of the frame's lines. A line narrower than a pixel may lie between two rows of pixels.
 double line_width_m(const settings::ProjectorSettings& projector) {
     const double pixel_m = glm::length(projector.table_from_projector.translation) / projector.pinhole.fx;
     return std::clamp(WindowShow::frame_px * pixel_m, WindowShow::min_frame_m, WindowShow::max_frame_m);
@@ -104,7 +104,7 @@ void WindowShow::place_frames(const exhibit::Presentation& presentation, double 
     }
 }
 
-/// Of two parts that share a cell's pixels, the one that comes.
+/// Keeps the parts that the prop shows. If two levels fade in a cell, it keeps the one that fades in.
 void WindowShow::freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                         Held& held) const {
     held.parts.clear();
@@ -150,7 +150,8 @@ WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
     };
     auto* found = std::find_if(held_.begin(), held_.end(),
                                [&](const Held& held) { return held.number == window.number; });
-    if (found == held_.end()) { // in the place of one that has gone: there are as many places as windows
+    if (found ==
+        held_.end()) { // takes the entry of a window that has gone: there are as many entries as windows
         found = std::find_if_not(held_.begin(), held_.end(), is_presented);
         assert(found != held_.end());
         found->number = window.number;

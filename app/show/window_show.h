@@ -1,7 +1,7 @@
 /// The windows that visitors have pinned, in the picture: what each shows, frozen when it was pinned, and a thin frame around it.
 ///
-/// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye. What the
-///          governor chooses later changes nothing of them. A window whose artifact leaves the cache shows nothing any more.
+/// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye. The governor's
+///          later choices do not change them. A window whose artifact leaves the cache shows nothing any more.
 /// Slant    a window is seen from within 60 degrees of its normal; beyond `full_deg` it fades, and is dark at the limit. Its
 ///          frame stays.
 /// Memory   one plan for each window and eye, for the largest level of any artifact of the set; the plan of the frame
@@ -45,7 +45,7 @@ public:
 
     void place_frames(const exhibit::Presentation& presentation, double brightness,
                       residency::OnTable& on_table) const;
-    /// Freezes what comes, and returns what is seen; valid until the next call.
+    /// Freezes new windows, and returns the windows that are seen; valid until the next call.
     [[nodiscard]] std::span<const scene::PlacedWindow> place(const exhibit::Presentation& presentation,
                                                              std::span<const glm::dvec3> eyes_m,
                                                              const residency::ArtifactCache& cache);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int squares = 5;       ///< along each side
-constexpr double square_m = 5.0; ///< dug
-constexpr double baulk_m = 1.0;  ///< left standing between two squares
+constexpr double square_m = 5.0; ///< side of a dug square
+constexpr double baulk_m = 1.0;  ///< width of the ground between two squares
 constexpr double border_m = 4.0; ///< of ground around all squares
 constexpr double ground_m = 4.5; ///< above the base
 constexpr double pitch_m = square_m + baulk_m;
@@ -49,7 +49,7 @@ private:
     [[nodiscard]] double rough(const glm::dvec2& at) const {
         return 0.10 * builder_.noise({at, 3.0}, 0.9) + 0.05 * builder_.noise({at, 7.0}, 3.0);
     }
-    /// The ground's height where it was not dug.
+    /// The height of the undug ground.
     [[nodiscard]] double height_at(const glm::dvec2& at) const {
         return ground_m + 0.4 * builder_.noise({at, 1.0}, 0.12) + rough(at);
     }
@@ -222,13 +222,14 @@ private:
                 {at, floor_under(at) - 0.05}, size,
                 [size](double v) {
                     const double belly = std::sin(std::numbers::pi * std::clamp(0.12 + 0.86 * v, 0.0, 1.0));
-                    return v >= 1.0 ? 0.0
-                                    : size * (0.06 + 0.32 * belly + (v > 0.93 ? 0.06 : 0.0)); // it is closed
+                    return v >= 1.0
+                               ? 0.0
+                               : size * (0.06 + 0.32 * belly + (v > 0.93 ? 0.06 : 0.0)); // closed at the top
                 },
                 {.material = SiteMaterial::Clay, .mottle = 0.15}, 10, 6);
         }
         constexpr int blocks = 60;
-        for (int k = 0; k < blocks; ++k) { // that fell from the walls
+        for (int k = 0; k < blocks; ++k) { // blocks that fell from the walls
             const glm::dvec2 at(builder_.between(-12.0, 12.0), builder_.between(-13.0, 13.0));
             builder_.box(
                 {at, floor_under(at) - 0.1},

@@ -17,7 +17,7 @@ constexpr double top_m = 13.0;       ///< radius of the hill's flat top
 
 using Look = SiteBuilder::Look;
 
-/// A road winds up the hill: how far its middle is away at this place, metres.
+/// The distance of a place from the middle of the road that winds up the hill, metres.
 double off_road(const glm::dvec2& at) {
     const double radius = glm::length(at);
     const double angle = std::atan2(at.y, at.x) / turn;

@@ -1,4 +1,4 @@
-/// Made-up sites as one triangle mesh each, at the size of a prop: what a museum shows in miniature, and what windows are measured on.
+/// Made-up sites as one triangle mesh each, at the size of a prop, as a museum shows them in miniature. The bench measures windows on them.
 ///
 /// HillTown    terrain with a road, houses with windows and roofs, a church, a wall with towers, trees and fields.
 /// Excavation  squares dug to terraces, with baulks between them, walls of stones, column drums, jars, and a heap of earth.

@@ -11,7 +11,7 @@ namespace frustumscreen::simulation {
 namespace {
 
 constexpr int shades = 256;    ///< texels of a material's row
-constexpr int row_texels = 16; ///< as many as a texel of the coarsest mip level covers
+constexpr int row_texels = 16; ///< a texel of the coarsest mip level covers as many
 constexpr std::size_t materials = 16;
 
 struct Tones {
@@ -36,7 +36,7 @@ constexpr std::array<Tones, materials> tones{{
     {{110, 20, 20}, {244, 236, 220}}, // cloth
 }};
 
-/// A whole number's bits mixed (Steele 2014, SplitMix64), as a number in -1..1.
+/// Mixes the bits of a whole number (Steele 2014, SplitMix64) into a number in -1..1.
 double hashed(std::uint64_t value) {
     value += 0x9E3779B97F4A7C15U;
     value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9U;

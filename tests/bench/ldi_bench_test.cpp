@@ -1,4 +1,4 @@
-// frustumscreen-bench ldi: its scene and path, and all of it small.
+// frustumscreen-bench ldi: its scene and path, and a small run of the whole command.
 
 #include "app/bench/ldi/ldi_bench.h"
 #include "tests/bench/near_settings.h"

@@ -41,7 +41,7 @@ std::array<glm::dvec2, 4> moved(std::array<glm::dvec2, 4> corners, const glm::dv
     return corners;
 }
 
-/// Against a search in all directions: no shorter slide makes the two clear of each other.
+/// Compares with a search in all directions: no shorter slide makes the two clear of each other.
 TEST(SlideClear, IsTheShortestSlideThatPartsTwoThings) {
     bench::Seeded random(5);
     int touching = 0;
@@ -95,7 +95,7 @@ struct Desk {
         }
     }
     [[nodiscard]] std::span<const PresentedWindow> windows() const { return desk.presented().windows(); }
-    /// Seen, by number.
+    /// The windows that are lit, oldest first.
     [[nodiscard]] std::vector<PresentedWindow> lit() const {
         std::vector<PresentedWindow> lit;
         std::copy_if(windows().begin(), windows().end(), std::back_inserter(lit),
@@ -131,7 +131,7 @@ TEST(WindowDesk, KeepsPoseAndEyeOfThePressAndFadesInBesideTheProp) {
     desk.step(true);
     double before = 0.0;
     for (int k = 0; k < 60; ++k) {
-        desk.eye_m.x += 0.005; // whoever looks goes on
+        desk.eye_m.x += 0.005; // the visitor walks on
         desk.step();
         ASSERT_EQ(desk.windows().size(), 1U);
         const double now = desk.windows()[0].brightness;
@@ -353,7 +353,7 @@ TEST(WindowDesk, AllocatesNothing) {
     EXPECT_GE(desk.windows().size(), 3U);
 }
 
-/// What a place of the table shows of windows, whatever is pressed with a prop at rest.
+/// The windows that a place of the table shows, whatever is pressed with a prop at rest.
 TEST(WindowDesk, NoPlaceFlashesWhateverIsPressed) {
     int most = 0;
     for (unsigned seed = 0; seed < 24; ++seed) {
@@ -514,7 +514,7 @@ bool overlap(const TableRectangle& a, const TableRectangle& b) {
     return typography::clearance(a.corners(), b.corners()) <= 0.0;
 }
 
-/// A hand that slides, turns, lifts and presses everything: what is seen of a window lies beside all that is seen else.
+/// A hand slides, turns and lifts the prop and presses every button: no visible window overlaps anything else that is seen.
 TEST_F(WindowExhibit, NeverOverlapAnythingOnTheTableOverSeededWalks) {
     const ExhibitPlace where = place(3);
     std::size_t most = 0;
@@ -563,7 +563,7 @@ TEST_F(WindowExhibit, NeverOverlapAnythingOnTheTableOverSeededWalks) {
                 pushed += same && found->second.rectangle.centre_m != window.rectangle.centre_m ? 1 : 0;
                 moved_on += window.comings > 1 ? 1 : 0;
                 const double last = found != before.end() ? found->second.brightness : 0.0;
-                // What covered it, and a sign on it, may leave at the same time.
+                // The thing that covered it and a sign on it may leave at the same time.
                 constexpr double fastest =
                     1.0 / 0.25 + 1.5 * (1.0 - WindowDesk::under_sign) / WindowDesk::under_sign_s;
                 EXPECT_LE(window.brightness - last, fastest * to_seconds(frame)) << "it jumps into the light";

@@ -37,7 +37,7 @@ TEST(DepthPicture, ProjectsAPointWhereItsRayPasses) {
     }
 }
 
-/// A few hundred triangles behind and before a window, as nobody models them.
+/// A few hundred random triangles behind and before a window.
 TriangleWorld soup(unsigned seed, int triangles) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> u(-1.0F, 1.0F);

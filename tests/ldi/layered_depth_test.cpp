@@ -1,4 +1,4 @@
-// Layered depth images: what is merged against geometry, McMillan's order against a depth test, pictures against the rasterizer's.
+// Layered depth images: merged points against geometry, McMillan's order against a depth test, pictures against the rasterizer's.
 #include "app/ldi/layered_depth.h"
 #include "app/ldi/patch_layers.h"
 #include "app/ldi/peers.h"
@@ -256,7 +256,7 @@ TEST(LayeredDepth, ShowsFromEveryEyeOfItsPatchWhatTheWorldShows) {
 }
 
 TEST(LayeredDepth, OnABorderTheImagesOfBothPatchesShowTheSame) {
-    // Else a window would flicker for an eye that crosses it, or differ for two eyes on its sides.
+    // Otherwise a window would flicker for an eye that crosses the border, or differ for two eyes on its sides.
     const Hemisphere& hemisphere = seen_spheres().hemisphere;
     std::vector<LayeredDepth> patches;
     for (std::size_t patch = 0; patch < patch_count; ++patch) {

@@ -48,7 +48,7 @@ TEST(PatchMaker, MakesEqualPatchesHoweverItsWorkIsDivided) {
     }
     std::mt19937 random(11);
     PatchMaker in_parts(world, hemisphere, making_limits());
-    // Looked at from here and there, so that the order differs and some are given up.
+    // Looks from several directions, so that the order differs and some patches are given up.
     for (bool more = true; more;) {
         if (random() % 40 == 0) {
             in_parts.look_from(seeded_eye(hemisphere, random() % patch_count, random));
@@ -121,7 +121,7 @@ TEST(PatchBuild, KeepsWithinItsMemoryByLargerTexels) {
         const PatchRelief relief = build.take();
         EXPECT_FALSE(relief.empty());
         EXPECT_LE(relief::bytes_of(relief.relief), max_bytes);
-        // What the header says is beside the limit, for at most all triangles.
+        // The memory that the header allows beside the limit, for at most all triangles.
         EXPECT_LE(most, max_bytes + 220 * world.triangle_count());
         EXPECT_GE(relief.texel_m, before_m);
         before_m = relief.texel_m;

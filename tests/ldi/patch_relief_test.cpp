@@ -21,7 +21,7 @@ PatchLimits town_limits() {
     return {.half_extent_m = glm::dvec2(half_window_m), .texel_m = texel_m};
 }
 
-/// A drawn window against the true one.
+/// The differences between a drawn window and the true one.
 struct Compared {
     int hits = 0;
     int beyond_outline = 0; ///< hit in one alone, without an outline of the truth within a pixel

@@ -1,5 +1,5 @@
 // `frustumscreen run` with a script that presses the seventh button: a window is seen on the table, of the settings' size, beside the
-// prop, with the artifact in it; and without [windows] nothing of it is there.
+// prop, with the artifact in it. Without [windows] there is no window.
 #include "app/geometry/table_plane.h"
 #include "app/image/image.h"
 #include "app/settings/settings.h"
@@ -129,7 +129,7 @@ TEST_F(RunWindows, OnesThatArePinnedOneAfterTheOtherLieSideBySideAndTwoAreThereA
     EXPECT_LT(three.coloured, 25 * first.coloured / 10) << "the oldest went";
 }
 
-/// Programs, bytes of GPU memory, devices and threads: what OpenGL and the program themselves say they have.
+/// Counts programs, bytes of GPU memory, devices and threads, as OpenGL and the program report them.
 TEST_F(RunWindows, WithoutThemNothingOfThemIsThere) {
     const auto loaded = [&](const std::string& more) {
         write_settings("simulated", more);

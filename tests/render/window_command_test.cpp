@@ -1,4 +1,4 @@
-// `frustumscreen render --pin`: what the first pose shows lies on the table in all pictures, beside a prop whose pixels stay.
+// `frustumscreen render --pin`: all pictures show the first pose's view as a window on the table, and the prop's pixels stay the same.
 
 #include "app/settings/settings.h"
 #include "tests/folders.h"

@@ -1,5 +1,5 @@
-// Windows in a frame: without them nothing is planned, of a change only what it meets is drawn again, nothing is allocated, and
-// pictures on the table are covered.
+// Windows in a frame: without them nothing is planned, a change redraws only the surfaces that it meets, nothing is allocated, and
+// windows cover pictures on the table.
 
 #include "tests/render/counted_new.h"
 #include "tests/render/stereo_rig.h"
@@ -39,7 +39,7 @@ TEST(WindowsInAFrame, CostNothingWhereThereAreNone) {
     }
 }
 
-/// One window more, the eye, the prop: what has changed is drawn again, and the picture is that of a whole redraw.
+/// A further window, the eye or the prop changes: the change is drawn again, and the picture equals a whole redraw.
 TEST(WindowsInAFrame, PartialRedrawEqualsFullRedraw) {
     for (const int samples : {1, 4}) {
         for (const auto& chosen : {std::array{Way::Mesh, Way::Mesh, Way::Mesh},
@@ -103,7 +103,7 @@ TEST(WindowsInAFrame, AChangeOfOneRedrawsThatOneAlone) {
     EXPECT_EQ(united(drawn.lit, scene::bounds_in_prop(rig.world.plan.windows[0])), drawn.lit);
 }
 
-/// A window covers what lies on the table, as the prop does, and neither covers a picture `on_prop`.
+/// A window covers pictures on the table, as the prop does, and neither covers a picture `on_prop`.
 TEST(WindowsInAFrame, CoverPicturesOnTheTable) {
     WindowRig rig(as_one(ball_and_post()), std::array{Way::Mesh}, 4);
     rig.pin({.middle_m = {0.14, 0.0}, .width_m = 0.07, .depth_m = 0.07});
@@ -193,7 +193,8 @@ TEST(WindowsInAFrame, AFrameAllocatesNothing) {
     }
 }
 
-/// On the window's plane, behind it, straight above, at the picture's edge and beyond: no pixel beside the window is lit.
+/// The eye is on the window's plane, behind it or straight above, or the window is at the picture's edge or beyond: no pixel beside the
+/// window is lit.
 TEST(WindowsInAFrame, AreDarkFromBehind) {
     for (const Way way : ways) {
         WindowRig rig(as_one(ball_and_post()), std::array{way});

@@ -1,4 +1,4 @@
-// Windows on the table, against rays: each pixel shows what the eye's ray through the table meets behind its window, the
+// Windows on the table, against rays: each pixel shows the surface that the eye's ray meets behind the window, the
 // prop's pixels are the same bytes as without windows, and all others stay dark.
 
 #include "tests/render/stereo_rig.h"
@@ -20,7 +20,7 @@ void keep(const image::Image8& picture, const std::string& name) {
     }
 }
 
-/// Of the parts' colours: red, green, blue.
+/// The part of a pixel by its colour: 0 red, 1 green, 2 blue; -1: none.
 int part_of(const glm::u8vec4& code) {
     const int brightest = std::max({code.r, code.g, code.b});
     return brightest < 128 ? -1 : brightest == code.r ? 0 : brightest == code.g ? 1 : 2;

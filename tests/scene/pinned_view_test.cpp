@@ -59,7 +59,7 @@ TEST(PinnedView, IsTheSameTurnedAndScaledWorld) {
     }
 }
 
-/// What stood upright for the eye stands upright, at the same angle to the eye's ray.
+/// An upright line of the prop stays upright for the eye, at the same angle to the eye's ray.
 TEST(PinnedView, KeepsTheRoll) {
     std::mt19937 random(2);
     for (int k = 0; k < 200; ++k) {

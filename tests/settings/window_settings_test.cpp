@@ -47,7 +47,7 @@ TEST(WindowSettings, AreRefusedInOneSentence) {
     }
 }
 
-/// One that is not there need not fit; one that just fits beside the prop does.
+/// With a count of 0 no window need fit; a window that just fits beside the prop is allowed.
 TEST(WindowSettings, MustFitBesideThePropWhereThereAreAny) {
     const std::string table = "[table]\nwidth_m = 0.4\ndepth_m = 0.3\n";
     EXPECT_EQ(refusal("[windows]\nwidth_m = 0.4\n" + table), "");

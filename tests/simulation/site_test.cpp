@@ -52,7 +52,7 @@ TEST(Site, IsTheSameOfTheSameSeedAndAnotherOfAnother) {
     EXPECT_NE(site.positions, make_site({.triangles = 60'000, .seed = 6}).positions);
 }
 
-/// The box of what stands there does not depend on how finely it is cut: the same things are built.
+/// The box of a site does not depend on its number of triangles: the same things are built.
 TEST(Site, HasTheSameThingsInAnyNumberOfTriangles) {
     const Extent coarse = extent_of(make_site({.triangles = 60'000}));
     const Extent fine = extent_of(make_site({.triangles = 200'000}));

@@ -126,7 +126,7 @@ image::ImageFloat GpuWindow::hit_points(const glm::dvec3& eye_m) {
 
 namespace {
 
-/// Appends a picture's grid.
+/// Appends the grid of a picture: a vertex for each pixel with a surface, two triangles between four neighbours.
 void add_grid(const ldi::DepthPicture& picture, std::vector<GpuWindow::Vertex>& vertices,
               std::vector<std::uint32_t>& indices) {
     constexpr std::uint32_t none = 0xFFFFFFFFU;
@@ -201,7 +201,7 @@ Result<std::unique_ptr<WindowTechnique>> warped(WindowSet& set, std::string name
 
 Result<std::unique_ptr<WindowTechnique>> make_cube_depth(WindowSet& set) {
     const glm::dvec3 eye(0.0, 0.0, 0.0);
-    constexpr double half = 0.01; // any: the sides are at right angles
+    constexpr double half = 0.01; // any value does: the sides are at right angles
     const std::array<glm::dvec3, 5> ahead{glm::dvec3(0, 0, -1), {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
     std::vector<ldi::PictureCamera> cameras;
     for (const glm::dvec3& each : ahead) {

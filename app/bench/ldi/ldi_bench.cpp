@@ -19,7 +19,7 @@ namespace {
 
 using Techniques = std::vector<std::unique_ptr<WindowTechnique>>;
 
-/// One pass over the frames of one technique.
+/// Times one pass over the frames of one technique.
 void time_pass(WindowSet& set, WindowTechnique& technique, std::span<const WindowFrame> path, LdiRow& row) {
     for (std::size_t k = 0; k < path.size(); ++k) {
         const WindowFrame& frame = path[k];
@@ -38,11 +38,11 @@ void time_pass(WindowSet& set, WindowTechnique& technique, std::span<const Windo
     }
 }
 
-/// The pictures of one set, against rays.
+/// Compares the pictures of one set with rays.
 class Errors {
 public:
     Errors(WindowSet& set, const Truth& truth) : set_(set), truth_(truth) {}
-    /// Of each technique.
+    /// The error of each technique for one eye.
     [[nodiscard]] std::vector<PictureError> at(const Techniques& techniques, const glm::dvec3& eye_m) {
         const scene::FlatScreen& screen = set_.screen();
         const TruthPicture truth = truth_.cast(
@@ -82,7 +82,7 @@ std::vector<LdiRow> measure_times(WindowSet& set, const Techniques& techniques, 
     Errors errors(set, truth);
     const auto count = static_cast<std::size_t>(std::min(options.errors, options.frames));
     for (std::size_t k = 0; k < count;
-         ++k) { // first, so that the driver has compiled all programs before times are taken
+         ++k) { // before the times, so that the driver has compiled all programs by then
         const WindowFrame& frame = path[(2 * k + 1) * path.size() / (2 * count)];
         const std::vector<PictureError> of = errors.at(techniques, frame.eyes_m.at(k % frame.eyes_m.size()));
         for (std::size_t technique = 0; technique < rows.size(); ++technique) {

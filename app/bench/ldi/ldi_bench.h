@@ -1,4 +1,4 @@
-/// Frozen windows in every way of window_technique.h: cost and error, as the multi-LDI report's Fig. 8.
+/// Measures cost and error of frozen windows by every technique of window_technique.h, as the multi-LDI report's Fig. 8 does.
 ///
 /// Time     processor time of all threads. A frame draws the scene alone, in the prop, then a first window to a fourth, each waited
 ///          for; the time of a frame with so many windows is what has passed by then. For each frame the least of some passes, which
@@ -42,7 +42,7 @@ struct LdiError {
 struct LdiRow {
     std::size_t triangles = 0;
     std::string technique;
-    /// Of each frame, with 0 windows to all.
+    /// The times of each frame, with 0 windows to `max_windows`.
     std::array<std::vector<double>, max_windows + 1> frame_ms;
     LdiError error;                 ///< of a window
     double mb = 0.0, make_ms = 0.0; ///< of one window
@@ -59,7 +59,7 @@ struct LdiPatchRow {
     std::size_t patch = 0;
     LdiError error;
 };
-/// What an eye sees through a window, in each way, and of the scene alone.
+/// A picture of a window by one technique, or of the scene alone.
 struct LdiPicture {
     std::string name; ///< of the technique, or "alone"
     image::Image8 picture;

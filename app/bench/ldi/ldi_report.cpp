@@ -26,7 +26,7 @@ std::string ldi_csv(const LdiResult& result) {
         "triangles,windows,technique,ms_p50,ms_p99,silhouette_pct,error_mm_mean,rmse,mb,make_ms\n";
     for (const LdiRow& row : result.rows) {
         for (std::size_t windows = 0; windows < row.frame_ms.size(); ++windows) {
-            // The scene alone has no window that could err or needs to be made.
+            // The scene alone has no window: nothing can err or is made.
             const LdiError error = windows > 0 ? row.error : LdiError{};
             csv += fmt::format("{},{},{},{:.3f},{:.3f},{:.4f},{:.4f},{:.3f},{:.3f},{:.1f}\n", row.triangles,
                                windows, row.technique, row.ms_p50(windows), row.ms_p99(windows),

@@ -38,7 +38,8 @@ private:
     scene::FramePlan plan_;
 };
 
-/// The coarsest of levels that halve their triangles which errs by at most so much; nullopt: none but the source does.
+/// The coarsest level that errs by at most `error_m`; each level has half the triangles of the one before. nullopt: only the
+/// source errs by so little.
 std::optional<LevelOfDetail> coarsest_within(const bake::SourceMesh& mesh, double error_m) {
     constexpr std::size_t fewest = 1000;
     std::vector<std::size_t> targets;

@@ -18,14 +18,14 @@ namespace {
 
 constexpr glm::dvec2 half_extent_m(0.5 * window_side_m);
 
-/// Of the cameras' pictures, in windows: an eye between two cameras then finds what lies deep behind the window.
+/// The size of the cameras' pictures for `ours`, in windows. With 1, an eye between two cameras finds holes deep behind the window.
 constexpr double our_margin = 1.4;
 
 ldi::CameraView view_of(const WindowSet& set, double margin = 1.0) {
     return {.half_extent_m = half_extent_m, .width = set.pixels(), .height = set.pixels(), .margin = margin};
 }
 
-/// What all cameras of the hemisphere see.
+/// The depth pictures of all cameras of the hemisphere.
 std::vector<ldi::DepthPicture> camera_pictures(const WindowSet& set, const ldi::Hemisphere& hemisphere,
                                                double margin = 1.0) {
     ldi::TriangleRasterizer rasterizer;
@@ -39,7 +39,7 @@ std::vector<ldi::DepthPicture> camera_pictures(const WindowSet& set, const ldi::
 std::span<const ldi::DepthPicture, ldi::camera_count> all_of(const std::vector<ldi::DepthPicture>& pictures) {
     return std::span<const ldi::DepthPicture, ldi::camera_count>(pictures);
 }
-/// Of each patch.
+/// The layered depth images of all patches.
 std::vector<ldi::LayeredDepth> all_patches(const WindowSet& set, const ldi::Hemisphere& hemisphere,
                                            double margin = 1.0) {
     const std::vector<ldi::DepthPicture> pictures = camera_pictures(set, hemisphere, margin);
@@ -95,8 +95,8 @@ template <typename Values> std::uint64_t sum_of_bytes(const Values& values) {
     return sum;
 }
 
-/// A patch's depth pixels, each as a point as large as its part of the surface: along the rays it has the slope of the pixel, up to
-/// four pixels.
+/// A patch's depth pixels, each as a point as large as its part of the surface. The pixel's slope extends the point along the ray; a
+/// point is at most four pixels wide.
 std::vector<GpuWindow::Vertex> points_of(const ldi::LayeredDepth& layers) {
     constexpr double max_pixels = 4.0;
     const ldi::PictureMap map(layers.camera);

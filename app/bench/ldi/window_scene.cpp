@@ -15,7 +15,7 @@ namespace {
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double degree = turn / 360.0;
 
-/// The site's up direction, from the window's normal.
+/// The site's up direction leans by 15 degrees from the window's normal.
 glm::dmat4 window_from_site_at(double depth_m) {
     constexpr double lean = 15.0 * degree;
     const glm::dvec3 up(0.0, std::sin(lean), std::cos(lean));
@@ -54,7 +54,7 @@ WindowScene make_window_scene(std::size_t triangles, std::uint64_t seed) {
     WindowScene scene;
     glm::dvec3 low(0.0);
     glm::dvec3 high(0.0);
-    double nearest_m = 0.0; // what reaches farthest towards the eyes
+    double nearest_m = 0.0; // the point that reaches farthest towards the eyes
     for (const glm::vec3& at : site.positions) {
         low = glm::min(low, glm::dvec3(at));
         high = glm::max(high, glm::dvec3(at));

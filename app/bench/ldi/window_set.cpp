@@ -13,7 +13,7 @@ namespace frustumscreen::bench {
 
 namespace {
 
-/// For pictures of meshes, and of reliefs.
+/// Shaders for meshes and for reliefs.
 scene::RenderNeeds needs_of() {
     return {.samples = 1, .draws = {scene::ShaderKey{}, scene::raster_shader()}, .rasterizes = true};
 }

@@ -33,7 +33,7 @@ public:
     [[nodiscard]] int pixels() const { return pixels_; } ///< along a window's side
     [[nodiscard]] double pixel_m() const { return window_side_m / pixels_; }
     [[nodiscard]] const scene::FlatScreen& screen() const { return screen_; }
-    /// The scene alone: plans and draws it in the prop, for an eye in the window's directions.
+    /// Plans and draws the scene alone, in the prop, for an eye in the window's directions.
     void draw_alone(const glm::dvec3& eye_m);
 
     /// Of a window.

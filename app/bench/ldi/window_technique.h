@@ -5,7 +5,7 @@
 /// relief_pack      the exhibit's own relief, as the bake makes it, in the directions of a frustum's faces.
 /// ours             the depth pixels of a patch as points, warped eight at a time with a depth test (app/ldi/point_patch.h).
 /// patch_relief     the patch as a block relief (app/ldi/patch_relief.h), drawn as the exhibit draws a relief.
-/// patch_relief_2px, ...  the same with texels of so many pixels.
+/// patch_relief_2px, _4px  the same with texels of two and four pixels.
 /// multi_ldi_paper  the report's: a layered depth image for each patch, splatted in McMillan's order.
 /// single_ldi       all 29 cameras in one layered depth image.
 /// ibo              an image-based object: layered depth images for the sides of a cube, up to three of which are splatted.
@@ -35,9 +35,9 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
     /// Chooses and draws the whole picture; the caller waits until it is drawn.
     virtual void draw(const glm::dvec3& eye_m) = 0;
-    /// Each pixel's point, NaN: none; of the same picture.
+    /// The point that each pixel of the same picture shows; NaN: none.
     [[nodiscard]] virtual image::ImageFloat hit_points(const glm::dvec3& eye_m) = 0;
-    /// That one window needs beside the scene's own data.
+    /// Memory that one window needs beside the scene's own data.
     [[nodiscard]] virtual std::uint64_t bytes() const = 0;
     /// Processor time to make all of it.
     [[nodiscard]] virtual double make_ms() const = 0;

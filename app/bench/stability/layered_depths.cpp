@@ -1,5 +1,5 @@
 // A window whose world is layered depth images: the eye on its plane and behind it, right before it and a million kilometres away, at an
-// image's own eye; surfaces around the eye; depths that differ a millionfold; worlds of which nothing is seen.
+// image's own eye; surfaces around the eye; depths that differ a millionfold; worlds that no eye sees.
 
 #include "app/bench/stability/exact.h"
 #include "app/bench/stability/sweep.h"
@@ -25,7 +25,7 @@ constexpr double radius_m = 0.5;
 const ldi::CameraView view{
     .half_extent_m = {0.1, 0.1}, .width = 64, .height = 64, .margin = 1.5, .max_side = 256};
 
-/// Parallel to the window.
+/// Adds a square wall parallel to the window.
 void add_wall(ldi::TriangleWorld& world, double z, double half_extent_m) {
     const auto first = static_cast<std::uint32_t>(world.positions.size());
     for (const glm::dvec2& corner :
@@ -47,7 +47,7 @@ ldi::TriangleWorld walls() {
 struct Seen {
     ldi::Hemisphere hemisphere{radius_m};
     std::array<ldi::DepthPicture, ldi::camera_count> pictures;
-    std::vector<ldi::LayeredDepth> images; ///< of the patches; the last one is of all cameras
+    std::vector<ldi::LayeredDepth> images; ///< one for each patch; the last one has all cameras
 
     explicit Seen(const ldi::TriangleWorld& world) {
         ldi::TriangleRasterizer rasterizer;
@@ -73,7 +73,7 @@ double covered(const ldi::DepthPicture& picture) {
            static_cast<double>(std::count(picture.nearness.begin(), picture.nearness.end(), 0.0F));
 }
 
-/// What all ways of drawing cover for an eye.
+/// The number of pixels that all techniques together draw for an eye.
 double covered_by_all(const ldi::TriangleWorld& world, const Seen& seen, const ldi::ImageBasedObject& object,
                       const glm::dvec3& eye) {
     ldi::DepthPicture picture = picture_for(eye);
@@ -107,7 +107,7 @@ StabilityResult on_the_plane_and_behind(const StabilityOptions&) {
          {"pixels drawn for an eye before it, short of all", 0.0, std::fmax(0.0, 64.0 * 64.0 - control)}}};
 }
 
-/// Nearness of a wall that is parallel to the window is the same in all pixels: it rounds in 32 bits, as its distances do in
+/// A wall parallel to the window has the same nearness in all pixels. It rounds in 32 bits, as its distances do in
 /// `world.positions`.
 StabilityResult eyes(const StabilityOptions&) {
     ldi::TriangleWorld world;
@@ -128,8 +128,8 @@ StabilityResult eyes(const StabilityOptions&) {
     return {{{"nearness of a wall off, relative", 4.0 * rounding, off}, {"pixels without it", 0.0, holes}}};
 }
 
-/// A floor below the eye, from far behind it to far before it. A corner is rounded by half of 1/1024 pixel, and where the floor is cut, 8190
-/// pixels away, its nearness by 2^-24 of 8190 pixels'; both corners of a side.
+/// A floor reaches below the eye, from far behind it to far before it. A corner rounds by half of 1/1024 pixel. Where the floor is cut,
+/// 8190 pixels away, its nearness rounds by 2^-24 of that of 8190 pixels. Both corners of a side round so.
 StabilityResult around_the_eye(const StabilityOptions&) {
     double off = 0.0;
     double wrong = 0.0;
@@ -146,7 +146,7 @@ StabilityResult around_the_eye(const StabilityOptions&) {
         ldi::TriangleRasterizer().draw(world, picture);
         const Real height = Real(eye.y) - Real(world.positions.front().y);
         for (int y = 0; y < 64; ++y) {
-            // The pixel's ray falls by `falls` a window's distance; it meets the floor at height / falls of them.
+            // The pixel's ray falls by `falls` in a window's distance, so it meets the floor at height / falls window distances.
             const Real falls = Real(eye.y) - Real(0.1) * (1 - Real(2 * y + 1) / 64);
             const Real per_px = Real(0.2) / 64 / height; // of the nearness
             const Real from_horizon_px = falls / height / per_px;
@@ -167,16 +167,16 @@ StabilityResult around_the_eye(const StabilityOptions&) {
              {"floor: pixels compared, short of 5000", 0.0, std::fmax(0.0, 5000.0 - compared)}}};
 }
 
-/// Three walls each, of which a camera sees all: a millionth, a thousandth and all of the depth. In 32 bits a wall's nearness rounds in the
-/// camera's picture, its slope twice, the nearness again when it is moved along that slope in the image, and once more in the picture: six
-/// times with the walls' own place. A slope counts twice on a plane that leans by 60 degrees.
+/// Each world has three walls, at a millionth, a thousandth and all of the depth; a camera sees all of them. In 32 bits a wall's nearness
+/// rounds in the camera's picture, its slope rounds twice, the nearness rounds again when it moves along that slope in the image, and
+/// once more in the picture. With the walls' own place these are six roundings. A slope counts twice on a plane that leans by 60 degrees.
 StabilityResult depths(const StabilityOptions&) {
     StabilityResult result;
     for (const double nearest_m : {1e-6, 1e-3, 1.0}) {
         ldi::TriangleWorld world;
         const std::array<double, 3> depths_m{nearest_m, 1e3 * nearest_m, 1e6 * nearest_m};
         for (std::size_t k = 0; k < 3;
-             ++k) { // as wide as a third of what is seen at its depth, and all of it for the last
+             ++k) { // a third as wide as the visible part at its depth; the last one as wide as all of it
             add_wall(world, -depths_m[k],
                      k == 2 ? 10.0 * depths_m[k] + 10.0
                             : 0.03 * (radius_m + depths_m[k]) * static_cast<double>(1 + k));
@@ -207,7 +207,7 @@ StabilityResult depths(const StabilityOptions&) {
     return result;
 }
 
-/// Pixels whose nearness is none of those that another picture has within two pixels: half a splat's size and a rounding.
+/// Counts pixels whose nearness occurs nowhere within two pixels in another picture. Two pixels: half a splat's size and a rounding.
 double strangers(const ldi::DepthPicture& picture, const ldi::DepthPicture& other) {
     double count = 0.0;
     for (int y = 0; y < view.height; ++y) {
@@ -225,7 +225,8 @@ double strangers(const ldi::DepthPicture& picture, const ldi::DepthPicture& othe
     return count;
 }
 
-/// Which of two splats at a silhouette is drawn last depends on the side on which the epipole is. There the epipole is 0 / 0, and infinitely far away beside it.
+/// The side of the epipole decides which of two splats at a silhouette is drawn last. At the image's own eye the epipole is 0 / 0; beside
+/// that eye it is infinitely far away.
 StabilityResult at_the_images_eye(const StabilityOptions&) {
     const Seen seen(walls());
     double differs = 0.0;
@@ -268,7 +269,7 @@ StabilityResult nothing_seen(const StabilityOptions&) {
     return {{{"surface points of an image", 0.0, pixels}, {"pixels drawn", 0.0, drawn}}};
 }
 
-/// Borders compare cosines and an azimuth that round four times.
+/// The patch of an eye follows from cosines and an azimuth that round four times.
 StabilityResult patches(const StabilityOptions&) {
     const ldi::Hemisphere hemisphere(radius_m);
     std::mt19937 random(49);

@@ -1,5 +1,5 @@
 // A window whose patches are block reliefs: the eye on its plane and behind it, on the borders of patches, depths that differ a
-// millionfold, worlds of which nothing is seen.
+// millionfold, worlds that no eye sees.
 
 #include "app/bench/stability/themes.h"
 #include "app/ldi/patch_relief.h"
@@ -22,7 +22,7 @@ constexpr int px = 64;
 constexpr double texel_m = 2.0 * half_m / px;
 const ldi::PatchLimits limits{.half_extent_m = glm::dvec2(half_m), .texel_m = texel_m};
 
-/// Parallel to the window.
+/// Adds a square wall parallel to the window.
 void add_wall(ldi::TriangleWorld& world, double z, double half_extent_m) {
     const auto first = static_cast<std::uint32_t>(world.positions.size());
     for (const glm::dvec2& corner :
@@ -34,7 +34,7 @@ void add_wall(ldi::TriangleWorld& world, double z, double half_extent_m) {
     }
 }
 
-/// The hit points that an eye is shown, window frame; NaN where there is none.
+/// The hit points of an eye's picture, window frame; NaN where there is none.
 std::vector<glm::dvec3> hits(const ldi::PatchRelief& patch, const glm::dvec3& eye) {
     const scene::FlatScreen screen = scene::flat_screen({glm::dvec3(-half_m, half_m, 0.0),
                                                          {half_m, half_m, 0.0},
@@ -129,7 +129,7 @@ StabilityResult borders(const StabilityOptions&) {
 
 StabilityResult depths(const StabilityOptions&) {
     constexpr double far_m =
-        100.0; // where the box's middle is seen at a sine of some 0.01; 0.001 is the least (collineation.h)
+        100.0; // the eye sees the box's middle at a sine of some 0.01; 0.001 is the least (collineation.h)
     ldi::TriangleWorld world;
     add_wall(world, -1e-6 * far_m, 0.02);
     add_wall(world, -far_m, 4.0 * far_m);
@@ -169,12 +169,12 @@ StabilityResult nothing_seen(const StabilityOptions&) {
 
 std::vector<StabilityCase> patch_relief_cases() {
     const auto strict = FloatingPoint::Strict;
-    return {
-        {"layered depth", "patch as a relief: an eye on the window's plane and behind it", strict,
-         on_the_plane_and_behind},
-        {"layered depth", "patch as a relief: on the borders of patches", strict, borders},
-        {"layered depth", "patch as a relief: depths that differ a millionfold", strict, depths},
-        {"layered depth", "patch as a relief: worlds of which nothing is seen", FloatingPoint::Free, nothing_seen}};
+    return {{"layered depth", "patch as a relief: an eye on the window's plane and behind it", strict,
+             on_the_plane_and_behind},
+            {"layered depth", "patch as a relief: on the borders of patches", strict, borders},
+            {"layered depth", "patch as a relief: depths that differ a millionfold", strict, depths},
+            {"layered depth", "patch as a relief: worlds of which nothing is seen", FloatingPoint::Free,
+             nothing_seen}};
 }
 
 } // namespace frustumscreen::bench

@@ -19,8 +19,8 @@ namespace {
 constexpr double size_m = 0.12;
 constexpr double usual_world_m = 0.16; ///< along its box's longest edge
 
-/// A window at `middle_m` on the table, as the usual kiosk's projector lights it. The world's box stands on z = 0 of the
-/// window's frame, and the window lies at `height_m` in it: at the box's top the world is wholly behind.
+/// A window lies at `middle_m` on the table, as the usual kiosk's projector lights it. The world's box stands on z = 0 of the
+/// window's frame, and the window lies at `height_m` in it; at the height of the box's top the world is wholly behind.
 exact::SetUp window_at(const glm::dvec2& middle_m, double height_m, double yaw_rad = 0.3) {
     exact::SetUp set_up = usual_set_up();
     set_up.prop = scene::window_surface(size_m, size_m);
@@ -64,7 +64,7 @@ void append(StabilityResult& result, std::vector<StabilityRow> rows) {
     }
 }
 
-/// `degrees` off the vertical, `away_m` from the middle.
+/// An eye `degrees` off the vertical and `away_m` from the middle.
 glm::dvec3 eye_at(const glm::dvec2& middle_m, double degrees, double away_m) {
     const double angle = degrees * std::numbers::pi / 180.0;
     return glm::dvec3(middle_m, 0.0) +
@@ -118,7 +118,8 @@ StabilityResult straight_above(const StabilityOptions&) {
     return result;
 }
 
-/// From the picture's middle over its edge until it is outside: nothing is planned beyond, and what is inside is right.
+/// A window moves from the picture's middle over its edge until it is outside. Nothing is planned beyond the edge, and the part
+/// inside is right.
 StabilityResult at_the_edge(const StabilityOptions&) {
     StabilityResult result;
     const exact::SetUp kiosk = usual_set_up();
@@ -145,8 +146,8 @@ StabilityResult at_the_edge(const StabilityOptions&) {
     return result;
 }
 
-/// A world of 100 m in which the eye and the window are, 0.1 mm below its top and 0.6 m lower. What is nearer than 1/500 of
-/// the farthest may be cut away.
+/// Eye and window are in a world of 100 m, 0.1 mm below its top and 0.6 m lower. Surfaces nearer than 1/500 of the farthest
+/// may be cut away.
 StabilityResult deep_world(const StabilityOptions&) {
     constexpr double world_m = 100.0;
     constexpr double above_m = 0.6;
@@ -174,7 +175,7 @@ StabilityResult deeper_world(const StabilityOptions&) {
         {{"draws in the window", 0.0, lit}, {"numbers in its plan that are not finite", 0.0, not_finite}}};
 }
 
-/// Whoever pins is anywhere above the table: the world's ball lies behind the table, and its scale is a number.
+/// For an eye anywhere above the table, the pinned world's ball lies behind the table, and its scale is finite.
 StabilityResult pinned(const StabilityOptions&) {
     double before = 0.0;
     double not_finite = 0.0;

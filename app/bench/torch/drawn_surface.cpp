@@ -15,7 +15,6 @@ bake::TriangleMesh mesh_of(const scene::LevelTriangles& level) {
     return {.positions = level.positions, .indices = level.indices};
 }
 
-/// Of the normals of a triangle's three corners their own order gives one.
 glm::dvec3 unit_or_zero(const glm::dvec3& vector) {
     const double length = glm::length(vector);
     return length > 0.0 ? vector / length : glm::dvec3(0.0);

@@ -65,7 +65,7 @@ private:
         const glm::dvec2 at = glm::abs(glm::dvec2(point)) / (point.z * half_extent_);
         return beam_.shape == torch::Shape::Round ? glm::length(at) < wider : std::max(at.x, at.y) < wider;
     }
-    /// The point, torch's frame, and eight around it, one pixel of the torch's own picture away.
+    /// The point and eight places around it, one pixel of the torch's own picture away; torch's frame.
     [[nodiscard]] glm::dvec3 beside(const glm::dvec3& point, int ray) const {
         const double angle = 0.25 * std::numbers::pi * ray;
         const glm::dvec2 pixel = 2.0 * half_extent_ * point.z / static_cast<double>(scene::torch_picture_px);
@@ -73,7 +73,7 @@ private:
                         : point + glm::dvec3(pixel * glm::dvec2(std::cos(angle), std::sin(angle)), 0.0);
     }
     enum class Light : std::uint8_t { Full, Unsure, None };
-    /// Of the ray through `at`, torch's frame, on the plane through a point.
+    /// The light that the ray through `at`, torch's frame, brings to the plane through a point.
     [[nodiscard]] Light light_at(const glm::dvec3& point_m, const glm::dvec3& normal,
                                  const glm::dvec3& at) const {
         const glm::dvec3 direction = prop_from_torch_.direction(at);

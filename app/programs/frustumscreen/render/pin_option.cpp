@@ -14,7 +14,7 @@ namespace {
 constexpr double max_m = 10.0;
 constexpr double max_deg = 360.0;
 
-/// Two or three numbers between commas.
+/// Two or three numbers, separated by commas.
 std::optional<scene::WindowPlace> read_pin(const std::string& text) {
     std::vector<double> numbers;
     const char* at = text.data();
