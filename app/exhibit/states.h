@@ -57,7 +57,8 @@ struct StateNote {
 inline constexpr std::array<StateNote, state_count> state_notes{{
     {State::Attract, "attract", true, false, Words::Invitation, false,
      "no visitor is present: the artifacts in turn and an inviting line; silent; windows go"},
-    {State::View, "view", true, false, Words::None, false, "the artifact in the prop, its caption, and pinned windows"},
+    {State::View, "view", true, false, Words::None, false,
+     "the artifact in the prop, its caption, and pinned windows"},
     {State::Browse, "browse", true, false, Words::None, false,
      "as view, with the ring of the picture that the prop rests on, or the object of the room that it rests "
      "before"},

@@ -173,7 +173,7 @@ std::optional<PinnedView> pin_view(const PinRequest& request) {
         return clearance(view.surface, eye, view.table_from_window.inverse().direction(in_table));
     };
     const glm::dvec3 straight = glm::normalize(middle - request.eye_m);
-    if (constexpr double least_share = 0.5; !(clearance_of(ray) > least_share * clearance_of(straight))) {
+    if (constexpr double min_share = 0.5; !(clearance_of(ray) > min_share * clearance_of(straight))) {
         ray = straight;
     }
     view = behind(request, std::move(view), clearance_of(ray), ray, turn);

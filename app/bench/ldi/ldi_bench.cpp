@@ -27,8 +27,8 @@ void time_pass(WindowSet& set, WindowTechnique& technique, std::span<const Windo
         set.draw_alone(frame.eyes_m.front());
         render::wait_until_drawn();
         for (std::size_t windows = 0;; ++windows) {
-            double& least_ms = row.frame_ms.at(windows)[k];
-            least_ms = std::min(least_ms, cpu_now_ms() - begun_ms);
+            double& min_ms = row.frame_ms.at(windows)[k];
+            min_ms = std::min(min_ms, cpu_now_ms() - begun_ms);
             if (windows == frame.eyes_m.size()) {
                 break;
             }
