@@ -213,6 +213,18 @@ class Bench:
         later one from the screen."""
         return self.picture_where(lambda placed: near(placed, pose, eye_m), pose, timeout_s)
 
+    def resting_picture_of(self, pose):
+        """Places the prop upright; returns the picture once its filtered pose rests: two pictures, a second apart, are equal."""
+        self.place(pose[:3])
+        seen = [self.picture_of(pose)]
+
+        def rests():
+            self.machine.let_run(1.0)
+            seen.append(self.picture_of(pose))
+            return seen[-1] if screen.count(screen.changed(*seen[-2:], 0)) == 0 else None
+
+        return eventually(rests, 30.0, "the picture does not come to rest")
+
     def picture_where(self, is_it, what, timeout_s=20.0):
         """The same for a presented picture that is_it() accepts."""
         last = [None]

@@ -17,7 +17,7 @@ from repeat import Load, Run, as_text
 
 # in this order, because later tests rely on earlier ones
 MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "camera", "camera_uses", "misbehaviour", "storm", "latency", "stick", "stick_report",
-           "stick_copy", "stick_hostile", "stick_storm", "settings", "missing", "table", "calibration", "guidance", "stereo", "display", "screen", "torch", "vblank", "restart", "safe",
+           "stick_copy", "stick_hostile", "stick_storm", "settings", "missing", "table", "calibration", "guidance", "stereo", "display", "screen", "torch", "windows", "vblank", "restart", "safe",
            "status", "hours", "watchdog", "delivery", "kernel")
 SLOWEST = 10  # tests that are named at the end
 

@@ -159,6 +159,18 @@ def box(rows, width):
     return (width - together.bit_length(), lines[0], right, lines[-1] + 1)
 
 
+def changed(before, after, by):
+    """Rows whose bits are the pixels that differ by more than so many codes; the first row has the watchdog's code."""
+    rows = [0]
+    for y in range(1, before.height):
+        first = 3 * before.width * y
+        bits = 0
+        for at in range(first, first + 3 * before.width, 3):
+            bits = bits << 1 | int(any(abs(before.rgb[at + k] - after.rgb[at + k]) > by for k in range(3)))
+        rows.append(bits)
+    return rows
+
+
 def grown(rows, pixels, width):
     """Every pixel that is at most `pixels` away from a lit one, along a row, a column or both."""
     full = (1 << width) - 1

@@ -20,7 +20,6 @@ TREMBLE_M = 0.02  # a torch that lies is off until it is moved by more than 15 m
 SETTLED_S = 1.0
 SWEEP_S = 60.0
 GONE_S = 30.0
-RESTS_S = 30.0
 CHANGED = 6  # codes; the filtered pose shades a surface by some less
 NEAR = 4  # pixels, of an edge of the light: its pose comes to rest near to what was sent
 MAX_OUTSIDE = 0.01  # share of the changed pixels, and of those that should
@@ -33,20 +32,6 @@ def pointing(from_m, at_m):
     elevation = math.degrees(math.atan2(along[2], math.hypot(*along[:2])))
     level = both_turns(about(0, 0, 1, azimuth - 90), about(1, 0, 0, -90))  # +Z to +Y of the table is turned about the vertical
     return (*from_m, *both_turns(level, about(1, 0, 0, elevation)))
-
-
-def changed_in(before, after, by=CHANGED):
-    """Rows whose bits are the pixels that differ by more than so many codes."""
-    rows = []
-    for y in range(before.height):
-        bits = 0
-        first = 3 * before.width * y
-        for x in range(before.width):
-            at = first + 3 * x
-            differs = any(abs(before.rgb[at + k] - after.rgb[at + k]) > by for k in range(3))
-            bits = bits << 1 | int(differs)
-        rows.append(bits)
-    return [0] + rows[1:]  # the first has the watchdog's code
 
 
 def shrunk(rows, pixels, width):
@@ -73,21 +58,9 @@ class Torch(HilTest):
             return [self.bench.render([prop], ARTIFACT, EYE_M, config, options=options, torches=[torch])[0]
                     for options in ((), ("--torch", "white"))]
 
-    def resting_picture_of(self, prop):
-        """The picture once the filtered pose of the prop rests: two pictures, apart by the time that the filter takes, are equal."""
-        self.bench.place(prop[:3])
-        seen = [self.bench.picture_of(prop)]
-
-        def rests():
-            self.bench.machine.let_run(SETTLED_S)
-            seen.append(self.bench.picture_of(prop))
-            return seen[-1] if screen.count(changed_in(*seen[-2:], by=0)) == 0 else None
-
-        return eventually(rests, RESTS_S, "the picture without a torch does not come to rest")
-
     def changes_as_rendered(self, prop, torch, dark):
         """Waits until what differs from the picture without a torch is what differs between the rendered pictures."""
-        meant = changed_in(*self.render(prop, torch))
+        meant = screen.changed(*self.render(prop, torch), CHANGED)
         self.assertGreater(screen.count(meant), 200, "the torch lights nothing: this pose proves nothing")
         may = screen.grown(meant, NEAR, dark.width)
         must = shrunk(meant, NEAR, dark.width)
@@ -98,7 +71,7 @@ class Torch(HilTest):
             self.bench.machine.let_run(SETTLED_S / 2)
             self.place_torch(torch)
             self.bench.machine.let_run(SETTLED_S)
-            seen = changed_in(dark, self.bench.picture_of(prop))
+            seen = screen.changed(dark, self.bench.picture_of(prop), CHANGED)
             outside = screen.share_outside(seen, may)
             missing = screen.share_outside(must, seen)
             said[0] = f"{screen.count(seen)} pixels changed, {outside:.1%} of them outside; {missing:.1%} of the light is missing"
@@ -107,13 +80,13 @@ class Torch(HilTest):
         eventually(is_so, SWEEP_S, lambda: said[0])
 
     def is_as_without(self, prop, dark):
-        eventually(lambda: screen.count(changed_in(dark, self.bench.picture_of(prop))) == 0, GONE_S,
+        eventually(lambda: screen.count(screen.changed(dark, self.bench.picture_of(prop), CHANGED)) == 0, GONE_S,
                    "the light stays, though the torch is gone")
 
     def test_the_light_sweeps_over_the_artifact(self):
         for place in PLACES_M:
             prop = (*place, *UPRIGHT)
-            dark = self.resting_picture_of(prop)
+            dark = self.bench.resting_picture_of(prop)
             for aim in AIMS_M:
                 with self.subTest(prop=place, aim=aim):
                     begin, end = ([a + b for a, b in zip(place, point)] for point in (FROM_M, aim))
@@ -127,5 +100,5 @@ class Torch(HilTest):
         for place in ((0.0, 0.0, 0.0), (0.02, 0.0, 0.0)):
             prop = (*place, *UPRIGHT)
             self.bench.tracker.tell("away", TORCH_STATION)
-            dark = self.resting_picture_of(prop)
+            dark = self.bench.resting_picture_of(prop)
             self.changes_as_rendered(prop, torch, dark)

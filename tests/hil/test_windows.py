@@ -45,18 +45,6 @@ def run_here(bench, prop):
         return [screen.read_png(folder / f"frame_{k:05}.png") for k in (0, 3)]
 
 
-def changed_in(before, after):
-    """Rows whose bits are the pixels that differ by more than CHANGED codes; the first row has the watchdog's code."""
-    rows = [0]
-    for y in range(1, before.height):
-        first = 3 * before.width * y
-        bits = 0
-        for at in range(first, first + 3 * before.width, 3):
-            bits = bits << 1 | int(any(abs(before.rgb[at + k] - after.rgb[at + k]) > CHANGED for k in range(3)))
-        rows.append(bits)
-    return rows
-
-
 def rows_in(rows, box, width):
     """The bits of the columns and rows of a box, (left, top, right, bottom)."""
     left, top, right, bottom = box
@@ -81,7 +69,7 @@ class Windows(HilTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.before, cls.after_press = run_here(cls.bench, PROP)
-        cls.window = changed_in(cls.before, cls.after_press)
+        cls.window = screen.changed(cls.before, cls.after_press, CHANGED)
 
     def setUp(self):
         super().setUp()
@@ -90,7 +78,7 @@ class Windows(HilTest):
         self.bench.place(PROP[:3])
 
     def test_a_window_is_seen_where_it_was_pinned_and_goes_with_the_visit(self):
-        dark = self.bench.picture_of(PROP)
+        dark = self.bench.resting_picture_of(PROP)
         self.bench.buttons.tell("press", WINDOW, "300ms")
         width = dark.width
         may = screen.grown(self.window, NEAR, width)
@@ -98,7 +86,7 @@ class Windows(HilTest):
 
         def is_there():
             self.bench.place(PROP[:3])
-            seen = changed_in(dark, self.bench.picture_of(PROP))
+            seen = screen.changed(dark, self.bench.picture_of(PROP), CHANGED)
             outside = screen.share_outside(seen, may)
             missing = screen.share_outside(self.window, screen.grown(seen, NEAR, width))
             said[0] = f"{screen.count(seen)} pixels changed, {outside:.1%} of them outside; {missing:.1%} of the window is missing"
