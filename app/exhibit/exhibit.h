@@ -188,7 +188,7 @@ private:
     // Windows: exhibit_windows.cpp.
     void step_windows(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                       const DrawnPose& drawn, Presentation& presentation);
-    /// What captions and signs keep clear of: pictures to choose from, and windows.
+    /// The places that captions and signs avoid: pictures to choose from, and windows.
     [[nodiscard]] Obstacles lying_on_table() const;
     /// The line that says once in a visit what the button does; none: nothing.
     [[nodiscard]] std::optional<WordIndex> window_word() const;

@@ -11,20 +11,21 @@ constexpr Nanoseconds invites_until = std::chrono::seconds(30);
 
 constexpr double min_share = 0.9; ///< a view can be pinned from this share of the artifact's light on
 
+/// `from`: the browser's pictures or the windows; empty: there are none.
+template <typename Obstacles, typename From> void add_places(Obstacles& obstacles, const From& from) {
+    if (from) {
+        for (const typography::TableRectangle& place : from->obstacles()) {
+            obstacles.add(place);
+        }
+    }
+}
+
 } // namespace
 
 Exhibit::Obstacles Exhibit::lying_on_table() const {
     Obstacles lying;
-    if (table_) {
-        for (const typography::TableRectangle& place : table_->obstacles()) {
-            lying.add(place);
-        }
-    }
-    if (windows_) {
-        for (const typography::TableRectangle& place : windows_->obstacles()) {
-            lying.add(place);
-        }
-    }
+    add_places(lying, table_);
+    add_places(lying, windows_);
     return lying;
 }
 
@@ -40,11 +41,7 @@ void Exhibit::step_windows(MonotonicTime now, const tracking::TrackedState& trac
         }
     }
     Obstacles others;
-    if (table_) {
-        for (const typography::TableRectangle& place : table_->obstacles()) {
-            others.add(place);
-        }
-    }
+    add_places(others, table_);
     if (const typography::TableRectangle caption = caption_.place(now); caption.size_m.x > 0.0) {
         others.add(caption);
     }

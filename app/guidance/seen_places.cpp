@@ -1,5 +1,7 @@
 #include "app/guidance/seen_places.h"
 
+#include "app/geometry/planar_hull.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -100,28 +102,6 @@ struct View {
     glm::dvec3 up{0.0};
 };
 
-/// The convex hull of points in a picture, counter-clockwise, within the memory of `points` and `chain` (Andrew 1979).
-std::span<const glm::dvec2> convex(std::span<glm::dvec2> points, std::span<glm::dvec2> chain) {
-    std::sort(points.begin(), points.end(),
-              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    std::size_t count = 0;
-    const auto add = [&](const glm::dvec2& point, std::size_t first) {
-        while (count >= first + 2 &&
-               cross(chain[count - 1] - chain[count - 2], point - chain[count - 1]) <= 0.0) {
-            --count;
-        }
-        chain[count++] = point;
-    };
-    for (const glm::dvec2& point : points) {
-        add(point, 0);
-    }
-    const std::size_t turn = count - 1;
-    for (std::size_t k = points.size() - 1; k-- > 0;) {
-        add(points[k], turn);
-    }
-    return chain.first(std::max<std::size_t>(count, 1) - 1);
-}
-
 } // namespace
 
 FacePart FacePart::clipped(const glm::dvec3& inward, double offset) const {
@@ -170,7 +150,7 @@ SeenOutline::SeenOutline(const glm::dvec3& eye, const glm::dvec3& forward, std::
         points; // NOLINT(cppcoreguidelines-pro-type-member-init): as many as are used
     std::transform(hull.begin(), hull.end(), points.begin(),
                    [&](const glm::dvec3& point) { return view.seen(point); });
-    count_ = convex(std::span(points).first(hull.size()), outline_).size();
+    count_ = geometry::planar_hull(std::span(points).first(hull.size()), outline_).size();
 }
 
 template <typename Use> void SeenOutline::clip_to(const FacePart& part, const Use& use) const {

@@ -1,4 +1,4 @@
-/// What the cameras of a hemisphere see of a world: which places are hidden from all of them.
+/// Depth pictures of the cameras of a hemisphere: they tell which places of a world are hidden from all cameras.
 ///
 /// Frames   window (triangle_world.h). Units: metres.
 /// Threads  one at a time.

@@ -23,7 +23,7 @@ inline constexpr int band_rows = relief::block_cells; ///< cells
 inline constexpr std::uint32_t lines_of_cell =
     relief::CellCrossings::lines_along * relief::CellCrossings::lines_along;
 
-/// What all bands of a direction share.
+/// Inputs that all bands of a direction share.
 struct BandScene {
     const TriangleWorld& world;
     const PatchView& view;

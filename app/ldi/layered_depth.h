@@ -57,7 +57,7 @@ inline constexpr double max_slope_steps = 2.0;
 class LayerMerger {
 public:
     explicit LayerMerger(const PictureCamera& camera, double tolerance_steps = default_tolerance_steps);
-    /// What the camera does not see is left out.
+    /// Leaves out points that lie outside of the camera's picture.
     void add(const DepthPicture& picture);
     [[nodiscard]] LayeredDepth take() const;
 

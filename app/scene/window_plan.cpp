@@ -1,6 +1,7 @@
 #include "app/scene/window_plan.h"
 
 #include "app/geometry/corner_fan.h"
+#include "app/geometry/planar_hull.h"
 #include "app/scene/face_view.h"
 #include "app/scene/prop_outline.h"
 
@@ -27,32 +28,6 @@ struct Cover {
     std::size_t count = 0; ///< of corners
 };
 
-double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-/// Sorts `points`, and writes their convex hull to `hull`; returns the number of its corners.
-/// Method: the monotone chain (Andrew 1979).
-std::size_t find_hull(std::span<glm::dvec2> points, std::span<glm::dvec2> hull) {
-    std::sort(points.begin(), points.end(),
-              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    std::size_t count = 0;
-    const auto add = [&](const glm::dvec2& point, std::size_t begin) {
-        while (count >= begin + 2 && !(turn(hull[count - 2], hull[count - 1], point) > 0.0)) {
-            --count;
-        }
-        hull[count++] = point;
-    };
-    for (const glm::dvec2& point : points) {
-        add(point, 0);
-    }
-    const std::size_t upper = count - 1;
-    for (std::size_t k = points.size() - 1; k-- > 0;) {
-        add(points[k], upper);
-    }
-    return count - 1; // the first point is at the end again
-}
-
 Cover cover_of(const geometry::PropShape& prop, const PlanView& view) {
     constexpr std::size_t most = corners_of_pixel * geometry::max_corners;
     assert(prop.corners.size() <= geometry::max_corners);
@@ -76,8 +51,9 @@ Cover cover_of(const geometry::PropShape& prop, const PlanView& view) {
                 *pixel + cover_margin_px * (2.0 * glm::dvec2(k & 1U, k >> 1U & 1U) - glm::dvec2(1.0));
         }
     }
-    std::array<glm::dvec2, most + 1> hull{};
-    cover.count = find_hull(std::span(points).first(count), hull);
+    std::array<glm::dvec2, most + 1> chain{};
+    const std::span<const glm::dvec2> hull = geometry::planar_hull(std::span(points).first(count), chain);
+    cover.count = hull.size();
     std::array<glm::dvec4, most> clip{};
     for (std::size_t k = 0; k < cover.count; ++k) {
         clip[k] = {2.0 * hull[k] / glm::dvec2(ideal.width, ideal.height) - 1.0, 0.0, 1.0};

@@ -112,16 +112,7 @@ void GpuWindow::draw_into(unsigned framebuffer, const glm::dvec3& eye_m, Output 
 
 image::ImageFloat GpuWindow::hit_points(const glm::dvec3& eye_m) {
     draw_into(points_.framebuffer.get(), eye_m, Output::Point);
-    image::Image<glm::vec4> raw(points_.width, points_.height);
-    glBindFramebuffer(GL_FRAMEBUFFER, points_.framebuffer.get());
-    glReadPixels(0, 0, raw.width, raw.height, GL_RGBA, GL_FLOAT, raw.texels.data());
-    image::ImageFloat points(raw.width, raw.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
-    for (std::size_t k = 0; k < raw.texels.size(); ++k) {
-        if (raw.texels[k].a != 0.0F) {
-            points.texels[k] = glm::vec3(raw.texels[k]);
-        }
-    }
-    return points;
+    return read_points(points_);
 }
 
 namespace {

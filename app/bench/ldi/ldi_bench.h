@@ -49,7 +49,7 @@ struct LdiRow {
 
     [[nodiscard]] double ms_p50(std::size_t windows) const;
     [[nodiscard]] double ms_p99(std::size_t windows) const;
-    /// What one more window costs: a quarter of what four cost, in the median.
+    /// Cost of one more window: a quarter of the cost of four, in the median.
     [[nodiscard]] double window_ms() const;
 };
 struct LdiPatchRow {

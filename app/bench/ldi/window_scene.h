@@ -1,4 +1,4 @@
-/// What `frustumscreen-bench ldi` shows: a hill town in the prop, and frozen behind windows; and the eyes that look at them.
+/// The scene of `frustumscreen-bench ldi`: a hill town, in the prop and frozen behind windows, and the eyes' paths.
 ///
 /// A window lies over the town as over a pit: the town's up direction leans by 15 degrees from the window's normal, away from
 /// the eye that froze it, and the town's whole box is behind the window.

@@ -36,7 +36,7 @@ public:
     /// Plans and draws the scene alone, in the prop, for an eye in the window's directions.
     void draw_alone(const glm::dvec3& eye_m);
 
-    /// Of a window.
+    /// Renderer and target of a single window.
     [[nodiscard]] render::Renderer& renderer() { return *windows_; }
     [[nodiscard]] render::RenderTarget target() const { return {target_.framebuffer.get(), 0}; }
     /// Plans and draws a window's whole picture.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace frustumscreen::bench {
 
@@ -339,6 +340,12 @@ std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::stri
         rows.push_back({where + "points compared, short of enough", 0.0, min_points - figures.points});
     }
     return rows;
+}
+
+void append(StabilityResult& result, std::vector<StabilityRow> rows) {
+    for (StabilityRow& row : rows) {
+        result.rows.push_back(std::move(row));
+    }
 }
 
 } // namespace frustumscreen::bench

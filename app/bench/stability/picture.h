@@ -62,5 +62,6 @@ inline constexpr double gpu_bound_px = 4.0 * 1280.0 * 0x1p-24;
 [[nodiscard]] std::vector<StabilityRow> rows_of(const PictureFigures& figures, const std::string& where,
                                                 double bound_px, double gpu_bound_px,
                                                 double min_points = 100.0);
+void append(StabilityResult& result, std::vector<StabilityRow> rows);
 
 } // namespace frustumscreen::bench

@@ -24,12 +24,6 @@ std::vector<StabilityRow> rows_at(double sine, const PictureFigures& figures, co
     return rows_of(figures, where, bound_px / sine, gpu_bound_px / sine, min_points);
 }
 
-void append(StabilityResult& result, std::vector<StabilityRow> rows) {
-    for (StabilityRow& row : rows) {
-        result.rows.push_back(std::move(row));
-    }
-}
-
 /// The usual picture covers 0.8 x 0.5 m of the table; the prop is 0.16 m wide.
 StabilityResult edges(const StabilityOptions&) {
     StabilityResult result;

@@ -45,12 +45,6 @@ PictureFigures figures(const exact::SetUp& set_up, double metres_per_box) {
     return figures_of(set_up, artifact, plan_of(set_up, artifact));
 }
 
-void append(StabilityResult& result, std::vector<StabilityRow> rows) {
-    for (StabilityRow& row : rows) {
-        result.rows.push_back(std::move(row));
-    }
-}
-
 /// `degrees` off the screen's normal, to its right, `away_m` from its middle.
 glm::dvec3 eye_at(const glm::dvec3& middle_m, double degrees, double away_m) {
     const double angle = degrees * std::numbers::pi / 180.0;

@@ -53,12 +53,6 @@ std::array<EyePlan, 2> plans_of(const exact::SetUp& set_up, settings::Stereo ste
     return plans;
 }
 
-void append(StabilityResult& result, std::vector<StabilityRow> rows) {
-    for (StabilityRow& row : rows) {
-        result.rows.push_back(std::move(row));
-    }
-}
-
 constexpr double min_seen_sine = 0.05; ///< at which a face is seen here
 
 StabilityResult apart(const StabilityOptions&) {

@@ -58,12 +58,6 @@ PictureFigures figures(const exact::SetUp& set_up, double world_m = usual_world_
     return figures_of(set_up, artifact, plan_of_window(set_up, artifact));
 }
 
-void append(StabilityResult& result, std::vector<StabilityRow> rows) {
-    for (StabilityRow& row : rows) {
-        result.rows.push_back(std::move(row));
-    }
-}
-
 /// An eye `degrees` off the vertical and `away_m` from the middle.
 glm::dvec3 eye_at(const glm::dvec2& middle_m, double degrees, double away_m) {
     const double angle = degrees * std::numbers::pi / 180.0;
@@ -213,7 +207,7 @@ std::vector<StabilityCase> window_cases() {
             {theme, "windows at the picture's edge", FloatingPoint::Strict, at_the_edge},
             {theme, "depths of 0.1 mm to 100 m", FloatingPoint::Strict, deep_world},
             {theme, "worlds of 10 km and more", FloatingPoint::Strict, deeper_world},
-            {theme, "whoever pins is anywhere", FloatingPoint::Strict, pinned}};
+            {theme, "pinned from any place", FloatingPoint::Strict, pinned}};
 }
 
 } // namespace frustumscreen::bench

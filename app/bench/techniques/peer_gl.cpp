@@ -101,8 +101,12 @@ Result<OutputPrograms> make_programs(const std::string& defines, std::string_vie
 
 Result<image::ImageFloat> PeerTechnique::hit_points(const BenchPose& pose) {
     draw_into(points_.framebuffer.get(), pose, Output::Point);
-    image::Image<glm::vec4> raw(points_.width, points_.height);
-    glBindFramebuffer(GL_FRAMEBUFFER, points_.framebuffer.get());
+    return read_points(points_);
+}
+
+image::ImageFloat read_points(const OffscreenTarget& target) {
+    image::Image<glm::vec4> raw(target.width, target.height);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
     glReadPixels(0, 0, raw.width, raw.height, GL_RGBA, GL_FLOAT, raw.texels.data());
     image::ImageFloat points(raw.width, raw.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     for (std::size_t k = 0; k < raw.texels.size(); ++k) {

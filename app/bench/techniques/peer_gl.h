@@ -28,6 +28,8 @@ struct OffscreenTarget {
     int height = 0;
 };
 [[nodiscard]] Result<OffscreenTarget> make_target(int width, int height, GLenum colour_format);
+/// From a float target: NaN where alpha is 0.
+[[nodiscard]] image::ImageFloat read_points(const OffscreenTarget& target);
 
 enum class PictureOf { Light, Codes }; ///< output of the shader; end_codes must follow Codes
 /// Binds and clears a picture, with every test and mask in its initial state.
