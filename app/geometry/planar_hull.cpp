@@ -14,6 +14,9 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 } // namespace
 
 std::span<const glm::dvec2> planar_hull(std::span<glm::dvec2> points, std::span<glm::dvec2> chain) {
+    if (points.empty()) {
+        return {};
+    }
     std::sort(points.begin(), points.end(),
               [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     std::size_t count = 0;
@@ -31,7 +34,7 @@ std::span<const glm::dvec2> planar_hull(std::span<glm::dvec2> points, std::span<
     for (std::size_t k = points.size() - 1; k-- > 0;) {
         add(points[k], turn);
     }
-    return chain.first(std::max<std::size_t>(count, 1) - 1);
+    return chain.first(count - 1);
 }
 
 } // namespace frustumscreen::geometry

@@ -1,5 +1,7 @@
 #include "app/settings/polygon.h"
 
+#include "app/geometry/planar_hull.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,29 +67,9 @@ Rectangle rectangle_inside(const Polygon& polygon) {
 }
 
 Polygon convex_polygon(std::vector<glm::dvec2> points) {
-    std::sort(points.begin(), points.end(),
-              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    Polygon polygon;
-    const auto add = [&](const glm::dvec2& point, std::size_t first) {
-        while (polygon.size() >= first + 2) {
-            const glm::dvec2 before = polygon.back() - polygon[polygon.size() - 2];
-            const glm::dvec2 after = point - polygon.back();
-            if (before.x * after.y - before.y * after.x > 0.0) {
-                break;
-            }
-            polygon.pop_back();
-        }
-        polygon.push_back(point);
-    };
-    for (const glm::dvec2& point : points) {
-        add(point, 0);
-    }
-    const std::size_t turn = polygon.size() - 1;
-    for (auto point = points.rbegin(); point != points.rend(); ++point) {
-        add(*point, turn);
-    }
-    polygon.pop_back();
-    return polygon;
+    Polygon chain(points.size() + 1);
+    chain.resize(geometry::planar_hull(points, chain).size());
+    return chain;
 }
 
 double area_of(const Polygon& polygon) {

@@ -20,7 +20,7 @@ struct HalfPlane {
 
 [[nodiscard]] Polygon clipped(const Polygon& polygon, const HalfPlane& keep);
 
-/// The smallest convex polygon that holds the points (Andrew 1979).
+/// The smallest convex polygon that holds the points (geometry/planar_hull.h).
 [[nodiscard]] Polygon convex_polygon(std::vector<glm::dvec2> points);
 
 [[nodiscard]] double area_of(const Polygon& polygon);

@@ -1,5 +1,6 @@
 #include "app/typography/captions.h"
 
+#include "app/geometry/planar_hull.h"
 #include "app/geometry/time_curves.h"
 #include "app/typography/visitor_side.h"
 
@@ -33,28 +34,11 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 /// As many as two polygons have.
 constexpr std::size_t max_hull_points = 2 * std::tuple_size_v<decltype(TablePolygon::points)>;
 
-/// Convex hull of few points (Andrew 1979), counter-clockwise.
 TablePolygon hull_of(std::span<glm::dvec2> points) {
-    std::sort(points.begin(), points.end(),
-              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    std::array<glm::dvec2, max_hull_points + 1> hull{}; // the first point comes again at the end
-    std::size_t count = 0;
-    const auto add = [&](const glm::dvec2& point, std::size_t least) {
-        while (count >= least + 2 &&
-               cross(hull[count - 1] - hull[count - 2], point - hull[count - 1]) <= 0.0) {
-            --count;
-        }
-        hull[count++] = point;
-    };
-    for (const glm::dvec2& point : points) {
-        add(point, 0);
-    }
-    const std::size_t lower = count - 1;
-    for (std::size_t k = points.size() - 1; k-- > 0;) {
-        add(points[k], lower);
-    }
+    std::array<glm::dvec2, max_hull_points + 1> chain{};
+    const std::span<const glm::dvec2> hull = geometry::planar_hull(points, chain);
     TablePolygon polygon;
-    polygon.count = std::min(count - 1, polygon.points.size());
+    polygon.count = std::min(hull.size(), polygon.points.size());
     std::copy_n(hull.begin(), polygon.count, polygon.points.begin());
     return polygon;
 }
