@@ -139,6 +139,7 @@ def run(tests, make_bench, keep):
         begun = time.monotonic()
         result = unittest.TextTestRunner(resultclass=Verdicts, verbosity=2).run(unittest.TestSuite(tests))
         took_s = time.monotonic() - begun
+        say(f"{result.testsRun} tests in {took_s:.0f} s in this machine")
         wrong = [test.id() for test, _ in (*result.failures, *result.errors)]
         return Run(os.getloadavg()[1], took_s, HilTest.longest_s, wrong, [(start_s, "the machine's start"), *result.took])
     finally:
@@ -159,10 +160,10 @@ def run_in_machines(shares, parts, folder, keep):
             return run(tests, lambda: Bench(*parts, out), keep)
 
         runs = beside([lambda number=number, tests=tests: in_one(number, tests) for number, tests in enumerate(shares, 1)])
-        done = together([each or Run(0.0, 0.0, 0.0, [f"machine {number}, which ended"]) for number, each in enumerate(runs, 1)])
+        done = together([each or Run(0.0, 0.0, 0.0, [f"machine {number} (its process ended)"]) for number, each in enumerate(runs, 1)])
     for seconds, name in sorted(done.took, reverse=True)[:SLOWEST]:
         print(f"   {seconds:6.0f} s   {name}")
-    say(f"{sum(name.startswith('test_') for _, name in done.took)} tests in {done.took_s:.0f} s, the slowest above; logs in {folder}")
+    say(f"{done.took_s:.0f} s; the slowest are above, logs in {folder}")
     for name in done.wrong:
         say(f"{name} failed")
     return done
