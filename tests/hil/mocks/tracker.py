@@ -13,6 +13,7 @@ _ABSURD_ENDPOINTS = tuple(Endpoint(address, address % 4, 0xFFFF, 255)
                           if address % 4 != BULK)
 _SET_CONFIGURATION = (0, 9)
 _BURST_PERIOD_S = 0.25
+_IDLE_S = 0.05  # between two looks whether a host listens
 _LONGEST_CATCH_UP_S = 0.25  # what a device's own buffer holds; frames older than that are lost
 
 
@@ -89,11 +90,12 @@ class Tracker(UsbDevice):
     # The life of the device.
 
     async def run(self):
-        """Sends one frame each period, for ever; after a delay the frames that are due follow at once."""
+        """Sends one frame each period, for ever; after a delay the frames that are due follow at once. Looks less often while nobody
+        listens: a test's bench has trackers that are not plugged in."""
         due = time.monotonic()
         while True:
             rate_hz = self.faults.value("rate") or self.rate_hz
-            due += 1.0 / rate_hz
+            due += 1.0 / rate_hz if self._is_heard() else max(_IDLE_S, 1.0 / rate_hz)
             now = time.monotonic()
             if now - due > _LONGEST_CATCH_UP_S:
                 skipped = int((now - due) * rate_hz)
@@ -104,7 +106,7 @@ class Tracker(UsbDevice):
 
     def step(self, now):
         """Sends the frame of this instant, if one is due."""
-        if not self.streaming or self.hung or not self._has_host():
+        if not self._is_heard():
             return
         self.counter = (self.counter + 1) & 0xFFFFFFFF
         if self.faults.on("stall"):
@@ -146,6 +148,9 @@ class Tracker(UsbDevice):
         if self.faults.on("wrong-configuration") and (request.kind, request.request) == _SET_CONFIGURATION:
             return None
         return super().control(request, data)
+
+    def _is_heard(self):
+        return self.streaming and not self.hung and self._has_host()
 
     def _has_host(self):
         return self.link is None or self.link.connected
