@@ -469,20 +469,12 @@ int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const P
     return calls;
 }
 
-void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store) {
-    std::fill(nearness_.texels.begin(), nearness_.texels.end(), 0.0F);
+void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store,
+                                const relief::PictureSpan<float>& nearness) {
     list_reliefs(plan, store);
-    const PixelRectangle whole{.x = 0, .y = 0, .width = nearness_.width, .height = nearness_.height};
+    const PixelRectangle whole{.x = 0, .y = 0, .width = nearness.width, .height = nearness.height};
     painter_->paint(seen_, 1, {}, nullptr,
-                    {.parts = {},
-                     .nearness = {.first = nearness_.texels.data(),
-                                  .width = nearness_.width,
-                                  .height = nearness_.height,
-                                  .stride = nearness_.width},
-                     .overlaid = std::span(&whole, 1)});
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
-    upload(depths(), std::span(&whole, 1), {});
+                    {.parts = {}, .nearness = nearness, .overlaid = std::span(&whole, 1)});
 }
 
 std::uint64_t RasterPass::bytes() const {

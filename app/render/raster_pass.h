@@ -51,9 +51,9 @@ public:
     int light_layers_in_depth(const Lit& lit);
     int light(const Lit& lit) const;
 
-    /// In place of `paint`: the nearness alone, with one sample a pixel, of the whole picture. `nearness`: its texture.
-    void paint_nearness(const scene::FramePlan& plan, const GpuStore& store);
-    [[nodiscard]] unsigned nearness() const { return nearness_texels_.get(); }
+    /// In place of `paint`: the nearness alone, with one sample a pixel, into memory; other pixels stay as they are.
+    void paint_nearness(const scene::FramePlan& plan, const GpuStore& store,
+                        const relief::PictureSpan<float>& nearness);
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;

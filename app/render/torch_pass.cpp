@@ -1,6 +1,7 @@
 #include "app/render/torch_pass.h"
 
 #include "app/render/gl_memory.h"
+#include "app/scene/torch_plan.h"
 
 #include <GLES2/gl2ext.h>
 
@@ -40,6 +41,7 @@ Result<void> TorchPass::make_targets() {
         target.framebuffer = gl::GlFramebuffer::generate();
         target.depth = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
         target.colour = make_texture(GL_RGBA8, GL_LINEAR);
+        target.nearness = make_texture(GL_R32F, GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, target.depth.get(),
@@ -69,11 +71,9 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
         if (!light.torch.casts_shadows) {
             continue;
         }
-        // One torch's nearness is drawn from before the next torch's is painted only if there is one.
-        if (plan.torches.size() == 1 && view.relief_draw_count > 0 && !FacePass::draws(view) &&
-            !shows_own_view(light)) {
-            rasters_.paint_nearness(view, store);
-            picture.shadow = rasters_.nearness();
+        if (scene::is_found_on_processor(view)) {
+            cast_view(light, view, target, store);
+            picture.shadow = target.nearness.get();
             picture.inverse_z = light.inverse_z_of_nearness;
         } else {
             calls += draw_view(view, target, store, shaders, shows_own_view(light));
@@ -81,6 +81,32 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
     }
     set_channels(glm::bvec3(true));
     return calls;
+}
+
+void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan& view, const Target& target,
+                          const GpuStore& store) {
+    constexpr int px = scene::torch_picture_px;
+    shadow_map_.begin(px, px);
+    if (view.relief_draw_count > 0) {
+        rasters_.paint_nearness(
+            view, store, {.first = shadow_map_.nearness().data(), .width = px, .height = px, .stride = px});
+    }
+    const geometry::Pinhole& pinhole = view.projector;
+    const glm::dmat3 picture_from_ray(pinhole.fx, 0.0, 0.0, 0.0, pinhole.fy, 0.0, pinhole.cx, pinhole.cy,
+                                      1.0);
+    for (const scene::Draw& draw : view.draws) {
+        if (draw.shader.pass == scene::ShaderKey::Pass::Surface) {
+            const scene::PlacedLevel& level = view.casters[draw.part].level;
+            shadow_map_.draw({.picture_from_model = picture_from_ray * glm::dmat4x3(light.torch_from_prop *
+                                                                                    level.prop_from_box()),
+                              .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x)},
+                             level.triangles->positions,
+                             std::span(view.indices).subspan(draw.range.first, draw.range.count));
+        }
+    }
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, target.nearness.get());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, px, px, GL_RED, GL_FLOAT, shadow_map_.nearness().data());
 }
 
 int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
@@ -147,7 +173,8 @@ int TorchPass::light_pixels(const Lit& lit) const {
 std::uint64_t TorchPass::bytes() const {
     std::uint64_t bytes = rasters_.bytes();
     for (const Target& target : targets_) {
-        bytes += bytes_of_texture(target.depth) + bytes_of_texture(target.colour);
+        bytes += bytes_of_texture(target.depth) + bytes_of_texture(target.colour) +
+                 bytes_of_texture(target.nearness);
     }
     return bytes;
 }

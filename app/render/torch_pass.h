@@ -10,6 +10,7 @@
 #include "app/render/shader_cache.h"
 #include "app/render/torch_uniforms.h"
 #include "app/scene/frame_plan.h"
+#include "app/torch/shadow_map.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
 
@@ -41,8 +42,12 @@ private:
     struct Target {
         gl::GlFramebuffer framebuffer;
         gl::GlTexture depth, colour;
+        gl::GlTexture nearness; ///< found on the processor
     };
     [[nodiscard]] Result<void> make_targets();
+    /// Finds the nearness of all that the torch sees, on the processor, and copies it into the target's texture.
+    void cast_view(const scene::TorchLight& light, const scene::FramePlan& view, const Target& target,
+                   const GpuStore& store);
     /// Draws all that the torch sees, with its colours or without. Returns the number of draw calls.
     int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
                   const ShaderCache& shaders, bool colours);
@@ -51,6 +56,7 @@ private:
     std::vector<TorchPicture> pictures_;
     FacePass faces_;
     RasterPass rasters_;
+    torch::ShadowMap shadow_map_;
     gl::GlFramebuffer colour_alone_ = gl::GlFramebuffer::generate(); ///< so that the depth may be asked
     gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };

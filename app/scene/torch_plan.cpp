@@ -254,6 +254,14 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
     }
 }
 
+bool is_found_on_processor(const FramePlan& view) {
+    return !glm::any(view.picture.channels) &&
+           std::none_of(view.draws.begin(), view.draws.end(), [](const Draw& draw) {
+               return draw.shader.pass == ShaderKey::Pass::Surface &&
+                      (draw.shader.cut_out || draw.shader.blocks);
+           });
+}
+
 void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,
                   FramePlan& plan) {
     plan.torches.clear();
