@@ -1,5 +1,7 @@
 #include "app/torch/shadow_map.h"
 
+#include "app/geometry/cut_polygon.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,32 +55,6 @@ void narrow(std::int64_t at, std::int64_t per_x, int& first, int& last) {
     }
 }
 
-/// The part of a polygon where `plane` times the place is not below `least`; one corner more at most.
-template <std::size_t n> struct Polygon {
-    std::array<glm::dvec3, n> places{};
-    std::size_t count = 0;
-
-    [[nodiscard]] Polygon cut(const glm::dvec3& plane, double least) const {
-        Polygon kept;
-        for (std::size_t k = 0; k < count; ++k) {
-            const glm::dvec3& from = places[k];
-            const glm::dvec3& to = places[(k + 1) % count];
-            const double from_side = glm::dot(plane, from) - least;
-            const double to_side = glm::dot(plane, to) - least;
-            if (from_side >= 0.0) {
-                kept.places[kept.count++] = from;
-            }
-            // From the inside, as for the triangle on the other side of the edge.
-            if (from_side >= 0.0 && to_side < 0.0) {
-                kept.places[kept.count++] = from + from_side / (from_side - to_side) * (to - from);
-            } else if (from_side < 0.0 && to_side >= 0.0) {
-                kept.places[kept.count++] = to + to_side / (to_side - from_side) * (from - to);
-            }
-        }
-        return kept;
-    }
-};
-
 } // namespace
 
 void ShadowMap::begin(int width, int height) {
@@ -127,6 +103,16 @@ void ShadowMap::draw(const View& view, std::span<const glm::vec3> positions,
         } else if (((a.column ^ b.column) | (a.column ^ c.column)) != 0 &&
                    ((a.row ^ b.row) | (a.row ^ c.row)) != 0) {
             draw_triangle(a, b, c);
+        }
+    }
+}
+
+void ShadowMap::find_farthest_of_four() {
+    for (int y = 0; y + 1 < height_; ++y) {
+        float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_;
+        const float* const below = row + width_;
+        for (int x = 0; x + 1 < width_; ++x) {
+            row[x] = std::min(std::min(row[x], row[x + 1]), std::min(below[x], below[x + 1]));
         }
     }
 }
@@ -185,26 +171,25 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c)
 }
 
 void ShadowMap::draw_cut(const View& view, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    Polygon<8> polygon{.places = {a, b, c}, .count = 3};
     if (!std::isfinite(a.x + a.y + a.z + b.x + b.y + b.z + c.x + c.y + c.z)) {
         return;
     }
-    polygon = polygon.cut({0.0, 0.0, 1.0}, min_z_m);
+    geometry::CutPolygon<8> polygon({a, b, c});
+    polygon.cut([](const glm::dvec3& place) { return place.z - min_z_m; });
     constexpr double guard = guard_px - 1.0;
     for (const glm::dvec3& plane : {glm::dvec3(1.0, 0.0, guard), glm::dvec3(-1.0, 0.0, guard),
                                     glm::dvec3(0.0, 1.0, guard), glm::dvec3(0.0, -1.0, guard)}) {
-        polygon = polygon.cut(plane, 0.0);
+        polygon.cut([&](const glm::dvec3& place) { return glm::dot(plane, place); });
     }
     std::array<Corner, 8> corners{};
-    for (std::size_t k = 0; k < polygon.count; ++k) {
-        corners[k] = corner_at(
-            glm::dvec3(polygon.places[k].x, polygon.places[k].y, std::max(polygon.places[k].z, min_z_m)),
-            view.metres);
+    const std::span<const glm::dvec3> places = polygon.corners();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        corners[k] = corner_at({places[k].x, places[k].y, std::max(places[k].z, min_z_m)}, view.metres);
         if (corners[k].column == needs_cutting) {
             return; // not reached: the planes lie within the guard
         }
     }
-    for (std::size_t k = 2; k < polygon.count; ++k) {
+    for (std::size_t k = 2; k < places.size(); ++k) {
         draw_triangle(corners[0], corners[k - 1], corners[k]);
     }
 }

@@ -33,6 +33,9 @@ public:
     /// `indices`: three for each triangle, which has two sides.
     void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
+    /// In place of each pixel's nearness the least of it and of the next ones to the right and below.
+    void find_farthest_of_four();
+
     /// Row by row. Others may draw into it too, as far as they keep the nearer.
     [[nodiscard]] std::span<float> nearness() { return nearness_; }
     [[nodiscard]] std::span<const float> nearness() const { return nearness_; }
