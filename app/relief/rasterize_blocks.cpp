@@ -231,11 +231,13 @@ FRUSTUMSCREEN_INLINE void rasterize_cells(RasterSamples& samples, Fragments& fra
     }
 }
 
-/// The part of the item's area that lies in the band's rows.
+/// The part of the item's area that lies in the band's rows, and in the columns that are painted.
 FRUSTUMSCREEN_INLINE PixelSpan within(const PixelSpan& area, const PixelRectangle& pixels, int k) {
     const int first = std::max(pixels.y, k * rows_of_band);
     const int end = std::min(pixels.y + pixels.height, (k + 1) * rows_of_band);
     PixelSpan span = area;
+    span.left = static_cast<std::uint16_t>(std::max<int>(area.left, pixels.x));
+    span.right = static_cast<std::uint16_t>(std::min<int>(area.right, pixels.x + pixels.width));
     span.top = static_cast<std::uint16_t>(std::max<int>(area.top, first));
     span.bottom = static_cast<std::uint16_t>(std::min<int>(area.bottom, end));
     return span;
@@ -259,7 +261,7 @@ FRUSTUMSCREEN_INLINE bool is_hidden(const RasterSamples& samples, const PixelSpa
 template <bool dithers>
 FRUSTUMSCREEN_INLINE void rasterize_item(RasterSamples& samples, const ReadyItem& ready,
                                          const PixelSpan& limits, Fragments& fragments) {
-    if (is_hidden(samples, limits, ready.item.nearest)) {
+    if (limits.left >= limits.right || is_hidden(samples, limits, ready.item.nearest)) {
         return;
     }
     for (int y = limits.top; y < limits.bottom; ++y) {

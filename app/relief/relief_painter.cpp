@@ -44,6 +44,14 @@ const RasterFace& face_at(const RasterView& view, const glm::dvec3& pixel) {
                              [&](const RasterFace& a, const RasterFace& b) { return depth(a) < depth(b); });
 }
 
+PixelRectangle around(std::span<const PixelRectangle> parts) {
+    PixelRectangle all;
+    for (const PixelRectangle& part : parts) {
+        all = united(all, part);
+    }
+    return all;
+}
+
 float nearest_of(const BlockItems& items) {
     float nearest = 0.0F;
     for (const BlockItem& item : items.sorted) {
@@ -175,6 +183,9 @@ std::span<const PixelRectangle> ReliefPainter::paint(std::span<const SeenRelief>
     PixelRectangle lit;
     for (const SeenRelief& seen : reliefs) {
         lit = united(lit, seen.view->lit);
+    }
+    if (picture.first == nullptr) {
+        lit = intersected(lit, around(depth.overlaid));
     }
     if (lit.empty()) {
         return {};

@@ -71,7 +71,7 @@ public:
     explicit ReliefPainter(int threads);
 
     /// Paints the reliefs as seen in their views, which are of one frame, with `samples` (1, 2, 4, 8 or 16) a pixel, in
-    /// `light` or unlit; a null picture gets no colours. Writes every pixel of the returned rectangles, which lie one below the other, and none outside;
+    /// `light` or unlit; a null picture gets no colours, and only the depth that is laid over is found. Writes every pixel of the returned rectangles, which lie one below the other, and none outside;
     /// of `depth`, the `depth_part` of each. They are valid until the next call.
     std::span<const PixelRectangle> paint(std::span<const SeenRelief> reliefs, int samples,
                                           const PictureSpan<glm::u8vec4>& picture,

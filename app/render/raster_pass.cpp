@@ -2,6 +2,7 @@
 
 #include "app/render/face_pass.h"
 #include "app/render/gl_memory.h"
+#include "app/render/nearness_tiles.h"
 #include "firmware_host/base/usable_cores.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -433,10 +434,11 @@ int RasterPass::light(const Lit& lit) const {
     glEnable(GL_SCISSOR_TEST);
     const glm::ivec2 viewport(lit.plan.picture.viewport.x, lit.plan.picture.viewport.y);
     int calls = 0;
-    for (const scene::TorchFace& face : lit.plan.torch_faces) {
+    for (std::size_t k = 0; k < lit.plan.torch_faces.size(); ++k) {
+        const scene::TorchFace& face = lit.plan.torch_faces[k];
         const scene::TorchLight& light = lit.plan.torches[face.torch];
         const Shader* const shader = find_torch(lit.shaders, scene::raster_shader(), light);
-        if (shader == nullptr || face.lit.rectangles().empty()) {
+        if (shader == nullptr || lit_tiles_[k].rectangles().empty()) {
             continue;
         }
         shader->use();
@@ -447,7 +449,7 @@ int RasterPass::light(const Lit& lit) const {
         begin_blending(light);
         for (const std::vector<PixelRectangle>* const parts : {&copied_, &drawn_}) {
             for (const PixelRectangle& part : *parts) {
-                calls += light_part(lit, face, part, *shader);
+                calls += light_part(lit, face, lit_tiles_[k], part, *shader);
             }
         }
     }
@@ -457,10 +459,34 @@ int RasterPass::light(const Lit& lit) const {
     return calls;
 }
 
-int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const PixelRectangle& part,
-                           const Shader& shader) {
+void RasterPass::find_lit_tiles(const scene::FramePlan& plan) {
+    lit_tiles_.resize(std::max(lit_tiles_.size(), plan.torch_faces.size()));
+    seen_by_.fill({});
+    const relief::PictureSpan<const float> nearness{.first = nearness_.texels.data(),
+                                                    .width = nearness_.width,
+                                                    .height = nearness_.height,
+                                                    .stride = nearness_.width};
+    for (std::size_t k = 0; k < plan.torch_faces.size(); ++k) {
+        const scene::TorchFace& face = plan.torch_faces[k];
+        scene::LitTiles& tiles = lit_tiles_[k];
+        PixelRectangle& seen = seen_by_.at(face.torch);
+        tiles.begin(plan.projector.width, plan.projector.height);
+        for (const std::vector<PixelRectangle>* const parts : {&copied_, &drawn_}) {
+            for (const PixelRectangle& part : *parts) {
+                for (const PixelRectangle& rectangle : face.lit.rectangles()) {
+                    const PixelRectangle both = intersected(part, rectangle);
+                    seen = united(seen, light_tiles(plan, face, both, nearness, tiles));
+                }
+            }
+        }
+        tiles.finish();
+    }
+}
+
+int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const scene::LitTiles& tiles,
+                           const PixelRectangle& part, const Shader& shader) {
     int calls = 0;
-    for (const PixelRectangle& tile : face.lit.rectangles()) {
+    for (const PixelRectangle& tile : tiles.rectangles()) {
         if (const PixelRectangle both = intersected(part, tile); !both.empty()) {
             set_scissor(both, lit.raster);
             calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, shader);
@@ -469,20 +495,11 @@ int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const P
     return calls;
 }
 
-void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store) {
-    std::fill(nearness_.texels.begin(), nearness_.texels.end(), 0.0F);
+void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store,
+                                const PixelRectangle& part, const relief::PictureSpan<float>& nearness) {
     list_reliefs(plan, store);
-    const PixelRectangle whole{.x = 0, .y = 0, .width = nearness_.width, .height = nearness_.height};
     painter_->paint(seen_, 1, {}, nullptr,
-                    {.parts = {},
-                     .nearness = {.first = nearness_.texels.data(),
-                                  .width = nearness_.width,
-                                  .height = nearness_.height,
-                                  .stride = nearness_.width},
-                     .overlaid = std::span(&whole, 1)});
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
-    upload(depths(), std::span(&whole, 1), {});
+                    {.parts = {}, .nearness = nearness, .overlaid = std::span(&part, 1)});
 }
 
 std::uint64_t RasterPass::bytes() const {

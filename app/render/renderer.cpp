@@ -204,7 +204,8 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     if (repaint.prop) {
         raster_pass_.paint(plan, store_);
         if (torches_) {
-            result.draw_calls += torches_->see(plan, store_, shaders_);
+            raster_pass_.find_lit_tiles(plan);
+            result.draw_calls += torches_->see(plan, store_, shaders_, raster_pass_);
             torches = torches_->pictures();
         }
     }

@@ -42,6 +42,7 @@ enum class Uniform : std::size_t {
     // Of torches (torch_shader.h):
     Beam,
     Fall,
+    Way,
     InverseZ,
     ContentKind,
     StageKind,

@@ -2,6 +2,7 @@
 
 #include "app/render/block_shader.h"
 #include "app/render/torch_shader.h"
+#include "app/scene/frame_plan.h"
 #include "app/scene/lit_tiles.h"
 
 #include <fmt/format.h>
@@ -310,7 +311,9 @@ std::string defines_of(const scene::ShaderKey& key) {
     define(key.blocks, "BLOCKS");
     define(key.coloured, "COLOURED");
     define(key.torch, "TORCH");
-    defines += key.torch ? fmt::format("#define CONTENT_PARTS {}\n", static_cast<int>(key.content)) : "";
+    defines += key.torch ? fmt::format("#define CONTENT_PARTS {}\n#define SHADOW_PX {}.0\n",
+                                       static_cast<int>(key.content), scene::torch_picture_px)
+                         : "";
     define(key.pass == scene::ShaderKey::Pass::RasterInDepth, "IN_DEPTH");
     return defines;
 }
@@ -353,6 +356,11 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
     case scene::ShaderKey::Pass::TorchOnSamples:
         return {defines, quad(outline_vertex),
                 fmt::format("{}{}{}", unbent_fragment, torch_light, torch_on_samples)};
+    case scene::ShaderKey::Pass::TorchOnPixels:
+        return {defines, quad(outline_vertex),
+                fmt::format("{}{}{}", unbent_fragment, torch_light, torch_on_pixels)};
+    case scene::ShaderKey::Pass::FarthestDepths:
+        return {tiles_defines, tiles, std::string(farthest_depths)};
     case scene::ShaderKey::Pass::EdgeFeather:
         return {defines, quad(feather_vertex), std::string(feather_fragment)};
     case scene::ShaderKey::Pass::TablePicture:

@@ -1,6 +1,7 @@
 #include "app/render/torch_pass.h"
 
 #include "app/render/gl_memory.h"
+#include "app/scene/torch_plan.h"
 
 #include <GLES2/gl2ext.h>
 
@@ -36,13 +37,15 @@ Result<void> TorchPass::prepare(const scene::RenderNeeds& needs) {
 Result<void> TorchPass::make_targets() {
     targets_.resize(torch::max_torches);
     pictures_.reserve(torch::max_torches);
+    drawn_depth_ = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
     for (Target& target : targets_) {
         target.framebuffer = gl::GlFramebuffer::generate();
         target.depth = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
         target.colour = make_texture(GL_RGBA8, GL_LINEAR);
+        target.nearness = make_texture(GL_R32F, GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, target.depth.get(),
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, drawn_depth_.get(),
                                0);
         if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE ||
             glGetError() != GL_NO_ERROR) {
@@ -55,7 +58,9 @@ Result<void> TorchPass::make_targets() {
     return {};
 }
 
-int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders) {
+int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+                   const RasterPass& painted) {
+    const bool meshes = FacePass::draws(plan);
     pictures_.clear();
     int calls = 0;
     for (std::size_t k = 0; k < plan.torches.size() && k < targets_.size(); ++k) {
@@ -69,11 +74,11 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
         if (!light.torch.casts_shadows) {
             continue;
         }
-        // One torch's nearness is drawn from before the next torch's is painted only if there is one.
-        if (plan.torches.size() == 1 && view.relief_draw_count > 0 && !FacePass::draws(view) &&
-            !shows_own_view(light)) {
-            rasters_.paint_nearness(view, store);
-            picture.shadow = rasters_.nearness();
+        if (scene::is_found_on_processor(view)) {
+            constexpr PixelRectangle whole{
+                .x = 0, .y = 0, .width = scene::torch_picture_px, .height = scene::torch_picture_px};
+            cast_view(light, view, meshes ? whole : painted.seen_by(k), target, store);
+            picture.shadow = target.nearness.get();
             picture.inverse_z = light.inverse_z_of_nearness;
         } else {
             calls += draw_view(view, target, store, shaders, shows_own_view(light));
@@ -81,6 +86,38 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
     }
     set_channels(glm::bvec3(true));
     return calls;
+}
+
+void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
+                          const PixelRectangle& part, const Target& target, const GpuStore& store) {
+    if (part.empty()) {
+        return;
+    }
+    constexpr int px = scene::torch_picture_px;
+    shadow_map_.begin(px, px);
+    if (view.relief_draw_count > 0) {
+        rasters_.paint_nearness(
+            view, store, part,
+            {.first = shadow_map_.nearness().data(), .width = px, .height = px, .stride = px});
+    }
+    const geometry::Pinhole& pinhole = view.projector;
+    const glm::dmat3 picture_from_ray(pinhole.fx, 0.0, 0.0, 0.0, pinhole.fy, 0.0, pinhole.cx, pinhole.cy,
+                                      1.0);
+    for (const scene::Draw& draw : view.draws) {
+        if (draw.shader.pass == scene::ShaderKey::Pass::Surface) {
+            const scene::PlacedLevel& level = view.casters[draw.part].level;
+            shadow_map_.draw({.picture_from_model = picture_from_ray * glm::dmat4x3(light.torch_from_prop *
+                                                                                    level.prop_from_box()),
+                              .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x)},
+                             level.triangles->positions,
+                             std::span(view.indices).subspan(draw.range.first, draw.range.count));
+        }
+    }
+    shadow_map_.find_farthest_of_four();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, target.nearness.get());
+    const std::span<const float> rows = shadow_map_.nearness().subspan(static_cast<std::size_t>(part.y) * px);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, part.y, px, part.height, GL_RED, GL_FLOAT, rows.data());
 }
 
 int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
@@ -101,10 +138,35 @@ int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, con
     glClearStencil(static_cast<GLint>(stencil_value(0))); // its only face is the whole picture
     glClear((colours ? GL_COLOR_BUFFER_BIT : 0U) | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     const int calls = faces_.draw(view, store, shaders, whole);
-    return calls + (view.relief_draw_count > 0 ? rasters_.show_in_depth(view, shaders, whole) : 0);
+    const int reliefs = view.relief_draw_count > 0 ? rasters_.show_in_depth(view, shaders, whole) : 0;
+    return calls + reliefs + find_farthest(target, shaders);
+}
+
+int TorchPass::find_farthest(const Target& target, const ShaderCache& shaders) const {
+    const Shader* const shader = shaders.find({scene::ShaderKey::Pass::FarthestDepths});
+    if (shader == nullptr) {
+        return 0;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, farthest_.get());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, target.depth.get(), 0);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    bind(depths_unit, drawn_depth_.get());
+    shader->use();
+    glBindVertexArray(no_attributes_.get());
+    constexpr int px = scene::torch_picture_px;
+    const PixelRectangle whole{.x = 0, .y = 0, .width = px, .height = px};
+    shader->draw_rectangles({px, px}, std::span(&whole, 1));
+    glBindVertexArray(0);
+    glDisable(GL_DEPTH_TEST);
+    return 1;
 }
 
 int TorchPass::light_samples(const Lit& lit, const Raster& averaged, unsigned depths) const {
+    const scene::ShaderKey::Pass pass = averaged.fragments == glm::ivec2(1)
+                                            ? scene::ShaderKey::Pass::TorchOnPixels
+                                            : scene::ShaderKey::Pass::TorchOnSamples;
     int calls = 0;
     glBindVertexArray(no_attributes_.get());
     glEnable(GL_SCISSOR_TEST);
@@ -112,7 +174,7 @@ int TorchPass::light_samples(const Lit& lit, const Raster& averaged, unsigned de
     bind(depths_unit, depths);
     for (const scene::TorchFace& face : lit.plan.torch_faces) {
         const scene::TorchLight& light = lit.plan.torches[face.torch];
-        const Shader* const shader = find_torch(lit.shaders, {scene::ShaderKey::Pass::TorchOnSamples}, light);
+        const Shader* const shader = find_torch(lit.shaders, {pass}, light);
         if (shader == nullptr || shows_layer(light) || face.lit.rectangles().empty()) {
             continue;
         }
@@ -145,9 +207,10 @@ int TorchPass::light_pixels(const Lit& lit) const {
 }
 
 std::uint64_t TorchPass::bytes() const {
-    std::uint64_t bytes = rasters_.bytes();
+    std::uint64_t bytes = rasters_.bytes() + (targets_.empty() ? 0 : bytes_of_texture(drawn_depth_));
     for (const Target& target : targets_) {
-        bytes += bytes_of_texture(target.depth) + bytes_of_texture(target.colour);
+        bytes += bytes_of_texture(target.depth) + bytes_of_texture(target.colour) +
+                 bytes_of_texture(target.nearness);
     }
     return bytes;
 }

@@ -10,6 +10,7 @@
 #include "app/render/shader_cache.h"
 #include "app/render/torch_uniforms.h"
 #include "app/scene/frame_plan.h"
+#include "app/torch/shadow_map.h"
 #include "firmware_host/base/result.h"
 #include "firmware_host/gl/gl_handle.h"
 
@@ -23,8 +24,10 @@ class TorchPass {
 public:
     /// Makes the pictures if plans may have torches.
     [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs);
-    /// Draws what each of the plan's torches sees. Returns the number of draw calls.
-    int see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders);
+    /// Finds or draws what each of the plan's torches sees; of the plan's own picture `painted` has what is rasterized. Returns the
+    /// number of draw calls.
+    int see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
+            const RasterPass& painted);
     /// One for each of the plan's torches, since `see`.
     [[nodiscard]] std::span<const TorchPicture> pictures() const { return pictures_; }
 
@@ -39,18 +42,30 @@ public:
 
 private:
     struct Target {
-        gl::GlFramebuffer framebuffer;
-        gl::GlTexture depth, colour;
+        gl::GlFramebuffer framebuffer; ///< of `drawn_depth_` and `colour`
+        gl::GlTexture colour;
+        gl::GlTexture depth;    ///< shadow map of what the GPU has drawn
+        gl::GlTexture nearness; ///< shadow map of what was found on the processor
     };
     [[nodiscard]] Result<void> make_targets();
+    /// Finds the nearness of what the torch sees in a part of its picture, on the processor, and copies it into the target's
+    /// texture.
+    void cast_view(const scene::TorchLight& light, const scene::FramePlan& view, const PixelRectangle& part,
+                   const Target& target, const GpuStore& store);
     /// Draws all that the torch sees, with its colours or without. Returns the number of draw calls.
     int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
                   const ShaderCache& shaders, bool colours);
 
+    /// Of what was drawn into the target. Returns the number of draw calls.
+    int find_farthest(const Target& target, const ShaderCache& shaders) const;
+
+    gl::GlTexture drawn_depth_;   ///< of one torch after the other
     std::vector<Target> targets_; ///< empty: there are no torches
     std::vector<TorchPicture> pictures_;
     FacePass faces_;
     RasterPass rasters_;
+    torch::ShadowMap shadow_map_;
+    gl::GlFramebuffer farthest_ = gl::GlFramebuffer::generate();
     gl::GlFramebuffer colour_alone_ = gl::GlFramebuffer::generate(); ///< so that the depth may be asked
     gl::GlVertexArray no_attributes_ = gl::GlVertexArray::generate();
 };

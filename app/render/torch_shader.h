@@ -2,7 +2,8 @@
 ///
 /// Exact for each fragment. A fragment that the torch does not light is discarded, so that blending leaves it as it is.
 ///
-/// Shadow   a place is lit if it is not behind the farthest of the four depths around it in the torch's own picture. On a
+/// Shadow   a place is lit if it is not behind the farthest of the four depths around it in the torch's own picture, which the
+///          shadow map has found once for all of its pixels: a texel has that of itself and the next ones to the right and below. On a
 ///          plane the nearness is linear between texels, so the place itself is never behind all four; a shadow's edge is
 ///          right within one pixel of that picture.
 /// Colour   linear light, for a framebuffer that encodes. Light: added to the surface times its own colour; over: mixed by
@@ -19,8 +20,9 @@ namespace frustumscreen::render {
 inline constexpr std::string_view torch_light = R"(
 #define MAX_STAGES 3
 uniform vec4 beam;               // x / z and y / z times xy: -1..1; reach; 1: round
-uniform vec4 fall;               // kind of attenuation; way up to which it is full; 1 / (dark - full); brightness
-uniform highp vec3 inverse_z;    // of a texel of `shadow`: factor, offset; share of z by which nothing shades itself, 0: no shadows
+uniform vec4 fall;               // of the intensity: this over the way's square at most; factors of t, t^2, t^3, which it falls by
+uniform vec4 way;                // up to which it is full; 1 / (dark - full); brightness
+uniform highp vec3 inverse_z;    // of a texel of `shadow`: factor, offset; share of z by which nothing shades itself
 uniform int content_kind;        // number of stages
 uniform ivec2 stage_kind[MAX_STAGES];  // source, mix
 uniform vec4 stage_colour[MAX_STAGES]; // opacity in a
@@ -40,31 +42,25 @@ vec3 decoded(vec3 code) {
     return mix(code / 12.92, pow((code + 0.055) / 1.055, vec3(2.4)), step(0.04045, code));
 }
 
-float intensity_at(float way) {
-    int kind = int(fall.x);
-    if (kind == 3 || way <= fall.y) {
-        return 1.0;
-    }
-    float share = clamp((way - fall.y) * fall.z, 0.0, 1.0);
-    return kind == 0 ? fall.y * fall.y / (way * way) : kind == 1 ? 1.0 - share : 1.0 - share * share * (3.0 - 2.0 * share);
+float intensity_at(float square) { // of the way
+    float t = clamp((sqrt(square) - way.x) * way.y, 0.0, 1.0);
+    return min(1.0, fall.x / square) * (1.0 - t * (fall.y + t * (fall.z + t * fall.w)));
 }
 
-bool is_shaded(vec2 place, float z) {
-    if (inverse_z.z <= 0.0) {
-        return false;
-    }
-    ivec2 size = textureSize(shadow, 0);
-    ivec2 low = clamp(ivec2(floor(place * vec2(size) - 0.5)), ivec2(0), size - 2);
-    vec4 seen = vec4(texelFetch(shadow, low, 0).r, texelFetch(shadow, low + ivec2(1, 0), 0).r,
-                     texelFetch(shadow, low + ivec2(0, 1), 0).r, texelFetch(shadow, low + ivec2(1, 1), 0).r);
-    seen = seen * inverse_z.x + inverse_z.y;
-    return z * min(min(seen.x, seen.y), min(seen.z, seen.w)) * (1.0 - inverse_z.z) > 1.0;
+#if CONTENT_PARTS & 64
+bool is_shaded(vec2 at, float z) { return false; }
+#else
+bool is_shaded(vec2 at, float z) {
+    ivec2 low = ivec2(at * (0.5 * SHADOW_PX) + (0.5 * SHADOW_PX - 0.5)); // a texel holds the farthest of four
+    float seen = texelFetch(shadow, clamp(low, ivec2(0), ivec2(int(SHADOW_PX) - 2)), 0).r * inverse_z.x + inverse_z.y;
+    return z * seen * (1.0 - inverse_z.z) > 1.0;
 }
+#endif
 
 bool is_lit(vec3 p) {
     vec2 at = p.xy / p.z * beam.xy;
-    bool in_shape = beam.w > 0.5 ? dot(at, at) <= 1.0 : max(abs(at.x), abs(at.y)) <= 1.0;
-    return p.z > 0.0 && dot(p, p) <= beam.z * beam.z && in_shape && !is_shaded(0.5 * at + 0.5, p.z);
+    float out_of_shape = beam.w > 0.5 ? dot(at, at) : max(abs(at.x), abs(at.y));
+    return p.z > 0.0 && dot(p, p) <= beam.z * beam.z && out_of_shape <= 1.0 && !is_shaded(at, p.z);
 }
 
 #if CONTENT_PARTS & 4
@@ -170,7 +166,7 @@ void light(vec3 p, vec4 layer, float share, float pixel_m) {
         discard;
     }
     vec4 colour = content_at(place, pixel, p, layer);
-    share *= colour.a * fall.w * intensity_at(length(p));
+    share *= colour.a * way.z * intensity_at(dot(p, p));
 #if CONTENT_PARTS & 32
     result = vec4(colour.rgb * surface_gain(), share);
 #else
@@ -291,6 +287,36 @@ void main() {
     }
     vec3 p = lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0);
     light(p, vec4(0.0), lit / float(raster.x * raster.y), length(right) * float(raster.x) / abs(depth_left));
+}
+)";
+
+/// Of pixels of one sample each.
+inline constexpr std::string_view torch_on_pixels = R"(
+uniform highp sampler2D depths;
+uniform mat4 torch_from_projector; // as above
+uniform vec3 eye;
+uniform vec4 depth_from_nearness;
+uniform ivec4 raster;
+vec3 from_eye(vec2 fragment) {
+    return mat3(torch_from_projector) * vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+}
+void main() {
+    float depth = texelFetch(depths, ivec2(gl_FragCoord.xy) - raster.zw, 0).r;
+    float depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
+    vec3 to_place = from_eye(gl_FragCoord.xy);
+    vec3 p = eye + to_place / depth_left;
+    float pixel_m = distance(from_eye(gl_FragCoord.xy + vec2(1.0, 0.0)), to_place) / abs(depth_left);
+    light(p, vec4(0.0), depth < 1.0 && is_lit(p) ? 1.0 : 0.0, pixel_m);
+}
+)";
+
+/// Of what a torch sees, drawn by the GPU: the depth of each texel and of the next ones to the right and below, the farthest.
+inline constexpr std::string_view farthest_depths = R"(
+uniform highp sampler2D depths;
+void main() {
+    ivec2 low = clamp(ivec2(gl_FragCoord.xy), ivec2(0), textureSize(depths, 0) - 2);
+    gl_FragDepth = max(max(texelFetch(depths, low, 0).r, texelFetch(depths, low + ivec2(1, 0), 0).r),
+                       max(texelFetch(depths, low + ivec2(0, 1), 0).r, texelFetch(depths, low + ivec2(1, 1), 0).r));
 }
 )";
 

@@ -12,13 +12,30 @@ namespace frustumscreen::render {
 
 namespace {
 
+/// (full / way)^2, but for InverseSquare without bound; and the polynomial's share, square and cube.
+glm::vec4 fall_of(const torch::Beam& beam) {
+    constexpr float unbounded = 1e30F;
+    switch (beam.attenuation) {
+    case torch::Attenuation::InverseSquare:
+        return {beam.full_m * beam.full_m, 0.0F, 0.0F, 0.0F};
+    case torch::Attenuation::Linear:
+        return {unbounded, 1.0F, 0.0F, 0.0F};
+    case torch::Attenuation::SmoothStep:
+        return {unbounded, 0.0F, 3.0F, -2.0F};
+    case torch::Attenuation::None:
+        break;
+    }
+    return {unbounded, 0.0F, 0.0F, 0.0F};
+}
+
 void set_beam(const Shader& shader, const scene::TorchLight& light, const glm::vec2& inverse_z) {
     const torch::Beam& beam = light.torch.beam;
     glUniform4f(shader.location(Uniform::Beam), light.per_half_extent.x, light.per_half_extent.y,
                 light.reach_m, beam.shape == torch::Shape::Round ? 1.0F : 0.0F);
-    glUniform4f(shader.location(Uniform::Fall), static_cast<float>(beam.attenuation),
-                static_cast<float>(beam.full_m), static_cast<float>(1.0 / (beam.dark_m - beam.full_m)),
-                light.torch.brightness);
+    const glm::vec4 fall = fall_of(beam);
+    glUniform4fv(shader.location(Uniform::Fall), 1, glm::value_ptr(fall));
+    const glm::vec4 way(beam.full_m, 1.0 / (beam.dark_m - beam.full_m), light.torch.brightness, 0.0);
+    glUniform4fv(shader.location(Uniform::Way), 1, glm::value_ptr(way));
     // Half a pixel of the torch's picture: the depth of a surface that bends within a pixel.
     const glm::dvec2 extent = torch::half_extent(beam);
     const double nearer = std::min({extent.x, extent.y, 1.0}) / scene::torch_picture_px;
@@ -53,7 +70,7 @@ const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key
                          const scene::TorchLight& light) {
     const std::uint8_t parts = scene::parts_of(light.torch);
     const Shader* const own = shaders.find(scene::torch_of(key, parts));
-    const unsigned any = torch::all_parts | (parts & unsigned{torch::OverPart});
+    const unsigned any = torch::all_parts | (parts & unsigned{torch::OverPart | torch::BarePart});
     return own != nullptr ? own : shaders.find(scene::torch_of(key, static_cast<std::uint8_t>(any)));
 }
 

@@ -6,7 +6,9 @@
 namespace frustumscreen::scene {
 
 std::uint8_t parts_of(const PlacedTorch& torch) {
-    return torch::parts_of(std::span(torch.stages).first(torch.stage_count), torch.blend);
+    const unsigned bare = torch.casts_shadows ? 0U : unsigned{torch::BarePart};
+    return static_cast<std::uint8_t>(
+        bare | torch::parts_of(std::span(torch.stages).first(torch.stage_count), torch.blend));
 }
 
 PlacedTorch placed(const torch::Content& content, const torch::Beam& beam,

@@ -54,13 +54,17 @@ std::string name_of(const ShaderKey& key) {
         return "cast relief among polygons";
     case ShaderKey::Pass::TorchOnSamples:
         return "averaged samples";
+    case ShaderKey::Pass::TorchOnPixels:
+        return "pixels";
+    case ShaderKey::Pass::FarthestDepths:
+        return "shadow map of depths";
     }
     return {};
 }
 
 std::uint32_t bits_of(const ShaderKey& key) {
     const auto bit = [](bool set, unsigned place) { return static_cast<std::uint32_t>(set) << place; };
-    return static_cast<std::uint32_t>(key.pass) << 13U | static_cast<std::uint32_t>(key.content) << 7U |
+    return static_cast<std::uint32_t>(key.pass) << 14U | static_cast<std::uint32_t>(key.content) << 7U |
            bit(key.torch, 6) | bit(key.coloured, 5) | bit(key.blocks, 4) | bit(key.places, 3) |
            bit(key.cut_out, 2) | bit(key.dithered, 1) | bit(key.even_light, 0);
 }
@@ -129,7 +133,7 @@ ShaderKey torch_of(ShaderKey key, std::uint8_t content) {
     key.torch = true;
     key.coloured = false;
     key.even_light = false;
-    key.content = content & 63U;
+    key.content = content & 127U;
     return key;
 }
 
@@ -137,13 +141,14 @@ namespace {
 
 /// What torches draw: their own pictures, and their light on each kind of draw.
 void add_torches(const RenderNeeds& needs, std::set<ShaderKey>& shaders) {
-    std::set<ShaderKey> lit{{ShaderKey::Pass::TorchOnSamples}};
+    std::set<ShaderKey> lit{{ShaderKey::Pass::TorchOnSamples}, {ShaderKey::Pass::TorchOnPixels}};
     for (const ShaderKey& key : shaders) {
         if (key.pass == ShaderKey::Pass::Surface || key.pass == ShaderKey::Pass::Raster ||
             key.pass == ShaderKey::Pass::RasterInDepth) {
             lit.insert(key);
         }
     }
+    shaders.insert({ShaderKey::Pass::FarthestDepths});
     for (ShaderKey key : lit) {
         for (const std::uint8_t content : needs.torches) {
             shaders.insert(torch_of(key, content));

@@ -27,6 +27,8 @@ struct ShaderKey {
         TileAverageMany, ///< averages more samples than that
         RasterInDepth,   ///< shows such a relief behind and before what the GPU draws
         TorchOnSamples,  ///< a torch on the averaged samples, by their depth
+        TorchOnPixels,   ///< a torch on pixels of one sample each, by their depth
+        FarthestDepths,  ///< makes a torch's shadow map of the depths that the GPU has drawn
     };
     Pass pass = Pass::Surface;
     // For Surface only:
@@ -36,9 +38,9 @@ struct ShaderKey {
     bool even_light : 1 = false; ///< evens out the projector's light
     bool blocks : 1 = false;     ///< draws a relief's blocks, which leave out no texels
     bool coloured : 1 = false;   ///< multiplies its colours by the draw's light
-    // For Surface, Raster, RasterInDepth and TorchOnSamples:
+    // For Surface, Raster, RasterInDepth, TorchOnSamples and TorchOnPixels:
     bool torch : 1 = false;        ///< outputs a torch's light on what was drawn, to be blended
-    std::uint8_t content : 6 = 0U; ///< torch::ContentPart, bits
+    std::uint8_t content : 7 = 0U; ///< torch::ContentPart, bits
 
     [[nodiscard]] auto operator<=>(const ShaderKey&) const = default;
 };

@@ -1,6 +1,6 @@
 #include "app/scene/torch_plan.h"
 
-#include "app/scene/face_view.h"
+#include "app/scene/torch_tiles.h"
 
 #include <algorithm>
 #include <array>
@@ -13,45 +13,19 @@ namespace frustumscreen::scene {
 
 namespace {
 
-/// The half spaces a.X + d >= 0 of a beam, in a frame given by torch_from_frame: before the torch, the four sides of its
-/// rectangle and the plane across the axis at its reach. `a` is a unit vector in the torch's frame.
-using BeamPlanes = std::array<glm::dvec4, 6>;
-
-BeamPlanes planes_of(const torch::Beam& beam, const glm::dmat4& torch_from_frame) {
-    const glm::dvec2 extent = torch::half_extent(beam);
-    const double reach = std::min(torch::reach_m(beam), 1e6);
-    const auto side = [](double x, double y, double z) {
-        return glm::dvec4(x, y, z, 0.0) / std::sqrt(x * x + y * y + z * z);
-    };
-    BeamPlanes planes{glm::dvec4(0.0, 0.0, 1.0, 0.0), side(1.0, 0.0, extent.x),
-                      side(-1.0, 0.0, extent.x),      side(0.0, 1.0, extent.y),
-                      side(0.0, -1.0, extent.y),      glm::dvec4(0.0, 0.0, -1.0, reach)};
-    const glm::dmat4 transposed = glm::transpose(torch_from_frame);
-    for (glm::dvec4& plane : planes) {
-        plane = transposed * plane;
-    }
-    return planes;
-}
-
-/// False only if no point of the sphere is lit; `torch_from_frame` is rigid.
-bool may_light(const BeamPlanes& planes, const glm::dvec3& centre, double radius) {
-    return std::all_of(planes.begin(), planes.end(), [&](const glm::dvec4& plane) {
-        return glm::dot(plane, glm::dvec4(centre, 1.0)) >= -radius;
-    });
-}
-
 /// Appends the triangles of `range` that may meet the beam: not all corners are outside of one of its planes
 /// (Cohen-Sutherland; Francken 2007, 2).
 IndexRange lit_triangles(const LevelTriangles& level, const IndexRange& range, const BeamPlanes& planes,
                          std::vector<std::uint32_t>& indices) {
-    std::array<glm::vec4, std::tuple_size_v<BeamPlanes>> near{};
-    std::transform(planes.begin(), planes.end(), near.begin(), [](const glm::dvec4& plane) {
+    std::array<glm::vec4, BeamPlanes::max_count> near{};
+    const std::size_t count = planes.planes().size();
+    std::transform(planes.planes().begin(), planes.planes().end(), near.begin(), [](const glm::dvec4& plane) {
         return glm::vec4(plane + glm::dvec4(0.0, 0.0, 0.0, 1e-6 * glm::length(glm::dvec3(plane))));
     });
     const auto outcode = [&](std::uint32_t index) {
         const glm::vec3& at = level.positions[index];
         unsigned code = 0;
-        for (std::size_t k = 0; k < near.size(); ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
             const glm::vec4& plane = near[k];
             code |= static_cast<unsigned>(plane.x * at.x + plane.y * at.y + plane.z * at.z + plane.w < 0.0F)
                     << k;
@@ -66,45 +40,6 @@ IndexRange lit_triangles(const LevelTriangles& level, const IndexRange& range, c
         }
     }
     return {first, static_cast<std::uint32_t>(indices.size()) - first};
-}
-
-/// The number of parts along an edge of a level's box; each is about a centimetre long.
-glm::ivec3 parts_of_box(const glm::dvec3& size_m) {
-    constexpr double part_m = 0.01;
-    constexpr double max_parts = 12.0;
-    return glm::ivec3(glm::clamp(glm::ceil(size_m / part_m), glm::dvec3(1.0), glm::dvec3(max_parts)));
-}
-
-/// Finds the pixels of a level that a beam may light, within `draw`: those around the small parts of the level's box that meet the
-/// beam. Adds them to `tiles`, and returns the rectangle around them.
-PixelRectangle light_pixels(const PlacedLevel& level, const Draw& draw, const BeamPlanes& planes,
-                            const geometry::Pinhole& pinhole, LitTiles& tiles) {
-    const geometry::Box box = level.placed_box();
-    double scale = 0.0; // of the pose
-    for (int axis = 0; axis < 3; ++axis) {
-        scale = std::max(scale, glm::length(glm::dvec3(level.prop_from_placed[axis])));
-    }
-    const glm::ivec3 parts = parts_of_box(scale * (box.high - box.low));
-    const glm::dvec3 size = (box.high - box.low) / glm::dvec3(parts);
-    const double radius = 0.5 * scale * glm::length(size);
-    PixelRectangle lit;
-    for (int k = 0; k < parts.x * parts.y * parts.z; ++k) {
-        const glm::ivec3 place(k % parts.x, k / parts.x % parts.y, k / parts.x / parts.y);
-        const glm::dvec3 low = box.low + size * glm::dvec3(place);
-        const glm::dvec3 middle(level.prop_from_placed * glm::dvec4(low + 0.5 * size, 1.0));
-        if (!may_light(planes, middle, radius)) {
-            continue;
-        }
-        std::array<glm::dvec4, 8> corners{};
-        for (unsigned corner = 0; corner < corners.size(); ++corner) {
-            const glm::dvec3 share(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U);
-            corners[corner] = draw.clip_from_placed * glm::dvec4(low + size * share, 1.0);
-        }
-        const PixelRectangle part = intersected(draw.bounds, pixels_around(corners, pinhole));
-        tiles.light(part);
-        lit = united(lit, part);
-    }
-    return lit;
 }
 
 /// Sets the map from a pixel's depth to the place. Clip coordinates are linear in the place, and places on one ray differ only in
@@ -125,6 +60,13 @@ void find_places(const glm::dmat4& torch_from_placed, const Draw& draw, const ge
     face.from_ray = glm::mat3(glm::dmat3(scale.x * x, scale.y * y, offset.x * x + offset.y * y + rest));
     face.eye = glm::vec3(eye);
     face.end_of_depth = static_cast<float>(end);
+}
+
+/// The eye that looks through a face, prop frame.
+glm::dvec3 eye_of(const PlanView& view, const FacePlan& face) {
+    const auto own =
+        view.eyes_m.size() == 1 ? 0 : std::min(static_cast<std::size_t>(face.face), view.eyes_m.size() - 1);
+    return view.table_from_prop.inverse().point(view.eyes_m[own]);
 }
 
 /// The torch's entry for a face, which is the last torch.
@@ -254,6 +196,14 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
     }
 }
 
+bool is_found_on_processor(const FramePlan& view) {
+    return !glm::any(view.picture.channels) &&
+           std::none_of(view.draws.begin(), view.draws.end(), [](const Draw& draw) {
+               return draw.shader.pass == ShaderKey::Pass::Surface &&
+                      (draw.shader.cut_out || draw.shader.blocks);
+           });
+}
+
 void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,
                   FramePlan& plan) {
     plan.torches.clear();
@@ -270,8 +220,8 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
         }
         const geometry::RigidTransform torch_from_prop =
             torch.table_from_torch.inverse() * view.table_from_prop;
-        const BeamPlanes planes = planes_of(torch.beam, torch_from_prop.matrix());
-        if (!may_light(planes, 0.5 * (box.low + box.high), radius)) {
+        const BeamPlanes planes(torch.beam, torch_from_prop.matrix());
+        if (!planes.may_light(0.5 * (box.low + box.high), radius)) {
             continue;
         }
         const std::size_t number = plan.torches.size();
@@ -284,7 +234,14 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
             const PlacedLevel& level = parts[draw.part].level;
             TorchFace& face = face_of(plan, number, draw.face);
             TorchDraw lit{.draw = k, .torch = number, .bounds = {}, .range = {}};
-            lit.bounds = light_pixels(level, draw, planes, plan.projector, face.lit);
+            lit.bounds =
+                light_tiles({.level = level,
+                             .draw = draw,
+                             .beam = torch.beam,
+                             .torch_from_prop = torch_from_prop.matrix(),
+                             .eye_in_prop = eye_of(view, plan.faces[static_cast<std::size_t>(draw.face)]),
+                             .pinhole = plan.projector},
+                            face.lit);
             if (lit.bounds.empty()) {
                 continue;
             }
@@ -293,7 +250,7 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
             if (level.triangles && (parts_of(torch) & torch::LayerPart) != 0) {
                 lit.range = lit_triangles(
                     *level.triangles, draw.range,
-                    planes_of(torch.beam, torch_from_prop.matrix() * level.prop_from_box()), plan.indices);
+                    BeamPlanes(torch.beam, torch_from_prop.matrix() * level.prop_from_box()), plan.indices);
             }
             plan.torch_draws.push_back(lit);
         }

@@ -79,6 +79,7 @@ enum ContentPart : std::uint8_t {
     LensPart = 8,
     SeveralPart = 16, ///< more stages than one
     OverPart = 32,    ///< Blend::Over
+    BarePart = 64,    ///< no shadows: only to measure their cost
 };
 /// All parts but the blending: any content is drawn with it, or with it and OverPart.
 inline constexpr std::uint8_t all_parts = 31;

@@ -72,7 +72,10 @@ Result<void> CellSet::upload(std::optional<std::uint8_t> torch) {
     const geometry::Pinhole& pinhole = settings_.projector.pinhole;
     TRY(display_, display::SurfacelessDisplay::create(pinhole.width, pinhole.height));
     scene::RenderNeeds needs = residency::needs_of(*known_, plan_.needs);
-    needs = torch ? scene::with_torch(std::move(needs), *torch) : needs;
+    if (torch) {
+        needs = scene::with_torch(std::move(needs), *torch);
+        needs = scene::with_torch(std::move(needs), *torch | torch::BarePart);
+    }
     TRY(renderer_, render::Renderer::create(pinhole.width, pinhole.height, needs));
     for (const residency::PreparedLevel& level : prepared_.levels) {
         render::LevelUpload upload(level.data);

@@ -1,0 +1,63 @@
+/// A shadow map drawn on the processor: for each pixel of a torch's own picture how near the nearest triangle is.
+///
+/// Most triangles of a level are smaller than a pixel of the map and lie between pixel middles; they cost a comparison of
+/// cells. A software renderer sets each of them up.
+///
+/// Frames   model: the triangles'. Picture: pixels, row 0 at the top; pixel (i, j) has its middle at (i + 1/2, j + 1/2).
+/// Units    nearness: a length of the caller's over z, the depth along the torch's axis; 0 where nothing was drawn. On a plane it
+///          is linear in the picture.
+/// Threads  each one at a time. It keeps memory: a second `draw` of no more positions allocates nothing.
+/// Errors   none: a triangle whose corner is not finite is not drawn; nearer than 1/10 mm nothing is.
+/// Method   corners are rounded to 1/256 of a pixel, then each edge function is exact in 64 bits, and pixels on an edge belong to
+///          both triangles: a surface has no gaps. Triangles that reach beyond a guard band or behind the torch are cut.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace frustumscreen::torch {
+
+class ShadowMap {
+public:
+    /// Of `width` x `height` pixels, up to 4096 each; draws nothing yet.
+    void begin(int width, int height);
+
+    struct View {
+        /// (x z, y z, z) of a place of the model: x and y in the picture, z in metres.
+        glm::dmat4x3 picture_from_model{1.0};
+        double metres = 1.0; ///< the nearness is this over z
+    };
+    /// `indices`: three for each triangle, which has two sides.
+    void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
+
+    /// In place of each pixel's nearness the least of it and of the next ones to the right and below.
+    void find_farthest_of_four();
+
+    /// Row by row. Others may draw into it too, as far as they keep the nearer.
+    [[nodiscard]] std::span<float> nearness() { return nearness_; }
+    [[nodiscard]] std::span<const float> nearness() const { return nearness_; }
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+
+private:
+    /// A position in the picture, in 1/256 of a pixel.
+    struct Corner {
+        std::int32_t x = 0, y = 0;
+        float nearness = 0.0F;
+        /// The first column and row whose pixels' middles are not left of it and not above it, within the picture.
+        std::uint16_t column = 0, row = 0;
+    };
+    [[nodiscard]] Corner corner_at(const glm::dvec3& place, double metres) const;
+    void place_corners(const View& view, std::span<const glm::vec3> positions);
+    void draw_triangle(const Corner& a, const Corner& b, const Corner& c);
+    void draw_cut(const View& view, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+    int width_ = 0, height_ = 0;
+    std::vector<float> nearness_;
+    std::vector<Corner> corners_;
+};
+
+} // namespace frustumscreen::torch
