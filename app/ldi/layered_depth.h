@@ -60,6 +60,9 @@ public:
     /// Leaves out points that lie outside of the camera's picture.
     void add(const DepthPicture& picture);
     [[nodiscard]] LayeredDepth take() const;
+    [[nodiscard]] std::uint64_t bytes() const {
+        return heads_.capacity() * sizeof(std::uint32_t) + nodes_.capacity() * sizeof(Node);
+    }
 
 private:
     struct Node {

@@ -7,32 +7,21 @@ namespace frustumscreen::ldi {
 
 PatchMaker::PatchMaker(std::shared_ptr<const TriangleWorld> world, const Hemisphere& hemisphere,
                        const PatchLimits& limits)
-    : world_(std::move(world)), hemisphere_(hemisphere), limits_(limits),
-      views_(camera_views_for(*world_, hemisphere_, limits)) {}
+    : world_(std::move(world)), order_(hemisphere), limits_(limits),
+      views_(camera_views_for(*world_, order_.hemisphere(), limits)) {}
 
 void PatchMaker::look_from(const glm::dvec3& eye) {
-    const std::optional<std::size_t> patch = hemisphere_.patch_of(eye);
-    if (!patch) {
-        return;
-    }
-    looking_from_ = glm::normalize(eye);
-    if (build_ && *patch != building_ && patches_[*patch] == nullptr) {
+    const std::optional<std::size_t> patch = order_.look_from(eye);
+    if (patch && build_ && *patch != building_ && patches_[*patch] == nullptr) {
         build_.reset();
     }
 }
 
 std::optional<std::size_t> PatchMaker::next_patch() const {
-    const std::optional<std::size_t> looked_at = hemisphere_.patch_of(looking_from_);
-    std::optional<std::size_t> next;
-    double nearest = -2.0;
-    for (std::size_t patch = 0; patch < patch_count; ++patch) {
-        const double near = patch == looked_at ? 2.0 : glm::dot(looking_from_, hemisphere_.middle_of(patch));
-        if (patches_[patch] == nullptr && near > nearest) {
-            next = patch;
-            nearest = near;
-        }
-    }
-    return next;
+    std::array<bool, patch_count> made{};
+    std::transform(patches_.begin(), patches_.end(), made.begin(),
+                   [](const auto& patch) { return patch != nullptr; });
+    return order_.next(made);
 }
 
 bool PatchMaker::step(std::size_t triangles) {
@@ -42,7 +31,7 @@ bool PatchMaker::step(std::size_t triangles) {
             return false;
         }
         building_ = *next;
-        build_.emplace(*world_, hemisphere_, views_, building_, limits_);
+        build_.emplace(*world_, order_.hemisphere(), views_, building_, limits_);
     }
     if (!build_->step(triangles)) {
         patches_[building_] = std::make_shared<const PatchRelief>(build_->take());

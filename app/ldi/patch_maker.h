@@ -8,6 +8,7 @@
 /// Errors   none.
 #pragma once
 
+#include "app/ldi/patch_order.h"
 #include "app/ldi/patch_relief.h"
 
 #include <glm/glm.hpp>
@@ -38,7 +39,7 @@ public:
         return patches_[number];
     }
     [[nodiscard]] std::size_t made_count() const;
-    [[nodiscard]] const Hemisphere& hemisphere() const { return hemisphere_; }
+    [[nodiscard]] const Hemisphere& hemisphere() const { return order_.hemisphere(); }
     /// Memory of all that it holds, with patches that are still in use elsewhere and without the world.
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -46,10 +47,9 @@ private:
     [[nodiscard]] std::optional<std::size_t> next_patch() const;
 
     std::shared_ptr<const TriangleWorld> world_;
-    Hemisphere hemisphere_;
+    PatchOrder order_;
     PatchLimits limits_;
     CameraViews views_;
-    glm::dvec3 looking_from_{0.0, 0.0, 1.0}; ///< direction
     std::array<std::shared_ptr<const PatchRelief>, patch_count> patches_;
     std::optional<PatchBuild> build_;
     std::size_t building_ = 0;

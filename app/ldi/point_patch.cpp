@@ -39,6 +39,16 @@ Warp warp_between(const PictureMap& from, const PictureMap& to) {
             .slope_per_code = static_cast<float>(from.step_share()) / per_step};
 }
 
+/// `to`: a collineation of the world.
+Warp warp_through(const PictureMap& from, const glm::mat<4, 3, double>& to) {
+    const auto vector = [&to](const glm::dvec3& along) { return rounded(to * glm::dvec4(along, 0.0)); };
+    return {.origin = vector(from.ray(0.5, 0.5)),
+            .per_column = vector(from.per_column()),
+            .per_row = vector(from.per_row()),
+            .per_nearness = rounded(to * glm::dvec4(from.eye(), 1.0)),
+            .slope_per_code = static_cast<float>(from.step_share()) / per_step};
+}
+
 struct Target {
     std::span<std::uint64_t> nearest;
     int width = 0, height = 0;
@@ -183,6 +193,18 @@ PointPatch point_patch(const LayeredDepth& layers) {
     }
     patch.nearness.resize(padded);
     return patch;
+}
+
+std::span<const std::uint64_t> PointSplatter::draw(const PointPatch& patch,
+                                                   const glm::mat<4, 3, double>& pixel_from_window, int width,
+                                                   int height, relief::Instructions instructions) {
+    nearest_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    if (const PictureMap from(patch.camera); from.usable()) {
+        const Warp warp = warp_through(from, pixel_from_window);
+        const Target target{nearest_, width, height};
+        relief::run_with<draw_points>(instructions, patch, warp, target);
+    }
+    return nearest_;
 }
 
 void PointSplatter::draw(const PointPatch& patch, DepthPicture& picture, relief::Instructions instructions) {

@@ -9,6 +9,7 @@
 /// Numbers  32 bits: a place is off by less than 1/1000 pixel in pictures of up to 1024 pixels, and slopes are rounded to
 ///          1/8192 step (layered_depth.h).
 /// Errors   none: an eye on the window's plane or behind it sees nothing.
+/// Pixels   of the picture's camera, or of any collineation of the world: then nearness is per unit of its third component.
 /// Threads  values; any. A splatter is used by one thread at a time. It allocates only for a larger picture than any before.
 /// Source   layered_depth.h; a depth test by the larger of two 64-bit words.
 #pragma once
@@ -17,6 +18,7 @@
 #include "app/relief/instructions.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace frustumscreen::ldi {
@@ -28,6 +30,7 @@ struct PointPatch {
     std::vector<float> nearness;        ///< at the pixel's middle; 0: an empty point
     std::vector<std::uint32_t> slopes;  ///< two signed halves: a pixel to the right, a pixel down
     std::vector<std::uint32_t> colours; ///< red in the lowest byte
+    std::uint64_t number = 0;           ///< for whoever gives patches numbers; drawing does not use it
 
     [[nodiscard]] std::uint64_t bytes() const {
         return places.size() * (sizeof places[0] + sizeof nearness[0] + sizeof slopes[0] + sizeof colours[0]);
@@ -40,6 +43,13 @@ public:
     /// Draws the patch into a picture for its camera, in place of what the picture holds.
     void draw(const PointPatch& patch, DepthPicture& picture,
               relief::Instructions instructions = relief::best_instructions());
+
+    /// Draws it through a collineation: `pixel_from_window` times (point, 1) is (x w, y w, w), w above 0 before the eye, and 0 at
+    /// the eye's place and beside it. Returns a word for each pixel, row by row, valid until the next call: nearness above, colour
+    /// below; 0: empty. `width`, `height`: up to `max_picture_side`.
+    [[nodiscard]] std::span<const std::uint64_t>
+    draw(const PointPatch& patch, const glm::mat<4, 3, double>& pixel_from_window, int width, int height,
+         relief::Instructions instructions = relief::best_instructions());
 
 private:
     std::vector<std::uint64_t> nearest_; ///< of each pixel: nearness above, colour below

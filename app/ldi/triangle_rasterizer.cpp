@@ -203,7 +203,7 @@ void TriangleRasterizer::draw_cut(const Target& target, std::uint32_t triangle) 
     }
 }
 
-void TriangleRasterizer::find_colours(const Target& target) {
+void TriangleRasterizer::find_colours(const Target& target) const {
     // Pixels ask for triangles in any order, so their data is prefetched some pixels ahead.
     constexpr std::size_t indices_ahead = 24;
     constexpr std::size_t corners_ahead = 12;
@@ -286,6 +286,12 @@ void TriangleRasterizer::draw_depths(const TriangleWorld& world, DepthPicture& p
     const PictureMap map(picture.camera);
     if (map.usable()) {
         draw_triangles({world, map, picture}, first, std::min(world.triangle_count(), first + count));
+    }
+}
+
+void TriangleRasterizer::colour_depths(const TriangleWorld& world, DepthPicture& picture) const {
+    if (const PictureMap map(picture.camera); map.usable()) {
+        find_colours({world, map, picture});
     }
 }
 

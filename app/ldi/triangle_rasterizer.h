@@ -30,6 +30,8 @@ public:
     /// and picture stay as they are until the last part is drawn.
     void begin_depths(const TriangleWorld& world, const DepthPicture& picture);
     void draw_depths(const TriangleWorld& world, DepthPicture& picture, std::size_t first, std::size_t count);
+    /// Gives the pixels that the parts since `begin_depths` have drawn their colours.
+    void colour_depths(const TriangleWorld& world, DepthPicture& picture) const;
     /// The memory that it keeps.
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -50,7 +52,7 @@ private:
                        std::uint32_t triangle);
     void draw_cut(const Target& target, std::uint32_t triangle);
     void draw_triangles(const Target& target, std::size_t first, std::size_t end);
-    void find_colours(const Target& target);
+    void find_colours(const Target& target) const;
 
     std::vector<Corner> corners_;
     std::vector<Cell> cells_;         ///< of the corners

@@ -239,6 +239,28 @@ void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle&
     add(deep.x + deep.width, right);
 }
 
+bool RasterPass::paint_points(const scene::FramePlan& plan) {
+    if (plan.relief_draw_count == 0 || plan.relief_draws.front().points == nullptr) {
+        return false;
+    }
+    if (!points_) {
+        points_ = std::make_unique<PointPainter>();
+    }
+    const PixelRectangle painted = points_->paint(plan.relief_draws.front(),
+                                                  {.first = memory_.texels.data(),
+                                                   .width = memory_.width,
+                                                   .height = memory_.height,
+                                                   .stride = memory_.width},
+                                                  light_);
+    if (!painted.empty()) {
+        drawn_.push_back(painted);
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, colour_texels_.get());
+        upload(colours(), drawn_, plan.picture.viewport);
+    }
+    return true;
+}
+
 void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth_of,
                        Rectangles rectangles) {
     copied_.clear();
@@ -249,6 +271,9 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
         return;
     }
     light_.begin(plan);
+    if (paint_points(plan)) {
+        return;
+    }
     list_reliefs(plan, store);
     if (depth_of == Depth::Everywhere) {
         meeting_.assign(1, {.x = 0, .y = 0, .width = memory_.width, .height = memory_.height});

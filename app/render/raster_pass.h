@@ -12,6 +12,7 @@
 #include "app/image/image.h"
 #include "app/relief/relief_painter.h"
 #include "app/render/gpu_store.h"
+#include "app/render/point_painter.h"
 #include "app/render/raster.h"
 #include "app/render/shader_cache.h"
 #include "app/render/torch_uniforms.h"
@@ -38,7 +39,7 @@ public:
     enum class Depth { WhereItMeets, Everywhere };
     enum class Rectangles { MayBeCopied, AreDrawn };
     /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws. Everywhere: all of it is to be
-    /// shown by `show_in_depth`. AreDrawn: `show` keeps what lies between their pixels.
+    /// shown by `show_in_depth`. AreDrawn: `show` keeps what lies between their pixels. A plan of points has nothing else.
     void paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth = Depth::WhereItMeets,
                Rectangles rectangles = Rectangles::MayBeCopied);
     /// Draws those parts of the painted reliefs that meet the GPU's draws, into the bound framebuffer, in which FacePass
@@ -77,6 +78,8 @@ private:
     [[nodiscard]] Upload depths() const;
     [[nodiscard]] Upload layers_of_torches() const;
 
+    /// Paints the plan's points; false: it has none.
+    [[nodiscard]] bool paint_points(const scene::FramePlan& plan);
     void list_reliefs(const scene::FramePlan& plan, const GpuStore& store);
     void find_meeting(const scene::FramePlan& plan);
     void find_lit(const scene::FramePlan& plan, const GpuStore& store);
@@ -90,6 +93,7 @@ private:
     void add_painted(const scene::FramePlan& plan, const PixelRectangle& part, Rectangles rectangles);
 
     std::unique_ptr<relief::ReliefPainter> painter_; ///< null: no picture was prepared
+    std::unique_ptr<PointPainter> points_; ///< null: no points were painted
     scene::RasterLight light_;
     image::Image8 memory_;         ///< main memory that the reliefs are rasterized in
     image::Image<float> nearness_; ///< as large if there is depth, otherwise empty

@@ -134,6 +134,8 @@ public:
     [[nodiscard]] std::span<scene::FramePlan> plans() { return plans_; }
     /// The level that `draw` draws, without its fade.
     [[nodiscard]] scene::PlacedLevel shown() const { return placed(shown_); }
+    /// Its name among the pack's levels and reliefs.
+    [[nodiscard]] const scene::QualityLevel& shown_quality() const { return levels_[shown_].shows; }
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 

@@ -38,6 +38,11 @@ struct Shared {
     }
 };
 
+/// Points are planned as a relief that the processor draws.
+bool takes_relief_draw(const PlacedLevel& level) {
+    return level.relief != nullptr || level.points != nullptr;
+}
+
 /// Around the level in the prop frame.
 geometry::Box box_of(const PlacedLevel& level) {
     const geometry::Box placed = level.placed_box();
@@ -164,7 +169,7 @@ std::optional<Draw> draw_part(const Part& part, std::size_t index, const FaceVie
     }
     Draw draw = draw_level(part, clip_from_placed, clip_from_box, shared);
     draw.clip_from_placed = clip_from_placed;
-    if (level.relief) {
+    if (takes_relief_draw(level)) {
         if (level.on_gpu) {
             draw.shader.blocks = true;
             draw.clip_from_box = clip_from_box;
@@ -206,6 +211,7 @@ bool plan_relief_draw(const Part& part, const Shared& shared, FramePlan& plan) {
     }
     ReliefDraw& relief_draw = plan.relief_draws[plan.relief_draw_count++];
     relief_draw.relief = level.drawable.mesh;
+    relief_draw.points = level.points;
     relief_draw.on_gpu = level.on_gpu;
     relief_draw.prop_from_box = level.prop_from_box();
     relief_draw.light = level.light;
@@ -235,7 +241,7 @@ std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, Fram
     }
     std::uint32_t open = 0;
     for (const Part& part : parts) {
-        if (part.level.is_empty() || (part.level.relief && !plan_relief_draw(part, shared, plan))) {
+        if (part.level.is_empty() || (takes_relief_draw(part.level) && !plan_relief_draw(part, shared, plan))) {
             continue;
         }
         for (std::size_t face = 0; face < faces; ++face) {
@@ -282,7 +288,7 @@ double pixel_density(const Shared& shared, const FramePlan& plan) {
 /// Samples of the first part that the GPU draws; 1 if every part is rasterized on the processor.
 int samples_on_gpu(std::span<const Part> parts) {
     const auto drawn = std::find_if(parts.begin(), parts.end(),
-                                    [](const Part& part) { return !part.level.relief || part.level.on_gpu; });
+                                    [](const Part& part) { return !takes_relief_draw(part.level) || part.level.on_gpu; });
     return drawn != parts.end() ? drawn->level.samples : (parts.empty() ? 0 : 1);
 }
 

@@ -36,7 +36,13 @@
 #include <span>
 #include <vector>
 
+namespace frustumscreen::ldi {
+struct PointPatch;
+}
+
 namespace frustumscreen::scene {
+
+struct WindowPatches;
 
 /// An artifact at one quality level, or a part of one, placed in the configured prop.
 struct PlacedLevel {
@@ -53,8 +59,11 @@ struct PlacedLevel {
     /// Moves the placed box inside the prop: a cell's pose (world/cell.h). An affine transform.
     glm::dmat4 prop_from_placed{1.0};
     glm::vec3 light{1.0F}; ///< factor of its colours, linear light, red, green and blue
+    /// Drawn instead of the triangles, rasterized on the processor: points in the prop's frame, around which the box lies. They
+    /// live as long as the frame's plan.
+    const ldi::PointPatch* points = nullptr;
 
-    [[nodiscard]] bool is_empty() const { return !triangles && !relief; }
+    [[nodiscard]] bool is_empty() const { return !triangles && !relief && points == nullptr; }
     /// Of its box as placed, before `prop_from_placed`.
     [[nodiscard]] geometry::Box placed_box() const {
         const glm::dvec3 extent = box_size * metres_per_box;
@@ -95,6 +104,8 @@ struct PlacedWindow {
     /// The world behind it, placed in the window's frame as a prop's world is in the prop's.
     std::span<const Part> parts;
     double brightness = 1.0; ///< as PlanView::brightness
+    /// What eyes see of the parts, drawn in their place where it is ready (window_patches.h); null: nothing is.
+    const WindowPatches* patches = nullptr;
 };
 
 /// The part of the display's picture that holds one eye's picture.
@@ -164,6 +175,7 @@ struct ReliefDraw {
     std::optional<Dither> dither; ///< Part::dither
     int samples = 1;              ///< a pixel
     bool even_light = false;      ///< evens out the projector's light
+    const ldi::PointPatch* points = nullptr; ///< PlacedLevel::points, in place of the relief
 };
 
 /// A mesh or a relief seen through one face of the prop, a relief's rasterized picture there, or a

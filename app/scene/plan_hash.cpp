@@ -1,5 +1,7 @@
 #include "app/scene/plan_hash.h"
 
+#include "app/ldi/point_patch.h"
+
 #include <bit>
 
 namespace frustumscreen::scene {
@@ -116,7 +118,9 @@ std::uint64_t hash_of_prop(const FramePlan& plan) {
         }
     }
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
-        hash.add(static_cast<std::uint64_t>(plan.relief_draws[k].samples));
+        const ReliefDraw& drawn = plan.relief_draws[k];
+        hash.add(static_cast<std::uint64_t>(drawn.samples));
+        hash.add(drawn.points != nullptr ? drawn.points->number : 0);
     }
     for (const TorchLight& light : plan.torches) {
         hash_torch(light, hash);

@@ -4,6 +4,7 @@
 #include "app/geometry/planar_hull.h"
 #include "app/scene/face_view.h"
 #include "app/scene/prop_outline.h"
+#include "app/scene/window_patches.h"
 
 #include <algorithm>
 #include <array>
@@ -79,6 +80,15 @@ PlanView through(const PlacedWindow& window, const PlanView& view) {
     return seen;
 }
 
+/// Null: the window's parts are drawn. A lens that bends straight lines would bend the points' places too, so their parts are drawn
+/// there.
+const ldi::PointPatch* points_of(const PlacedWindow& window, const PlanView& view) {
+    if (window.patches == nullptr || view.eyes_m.empty() || if_it_bends(view.projector)) {
+        return nullptr;
+    }
+    return points_for(*window.patches, window.table_from_window.inverse().point(view.eyes_m.front()));
+}
+
 void plan_window(const PlacedWindow& window, const PlanView& view, const Cover& cover, FramePlan& plan) {
     const PlanView seen = through(window, view);
     const glm::dmat4 clip_from_window =
@@ -89,7 +99,13 @@ void plan_window(const PlacedWindow& window, const PlanView& view, const Cover& 
         plan.cover_clip.assign(cover.clip.begin(),
                                cover.clip.begin() + static_cast<std::ptrdiff_t>(cover.count));
     }
-    plan_frame(*window.surface, window.parts, seen, plan);
+    const ldi::PointPatch* const points = points_of(window, seen);
+    if (points != nullptr) {
+        const Part part = part_of(*window.patches, *points);
+        plan_frame(*window.surface, std::span(&part, 1), seen, plan);
+    } else {
+        plan_frame(*window.surface, window.parts, seen, plan);
+    }
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/render/block_upload.h"
 #include "app/render/read_back.h"
+#include "app/scene/window_patches.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 #include "app/show/exhibit_place.h"
@@ -73,6 +74,9 @@ Result<std::unique_ptr<ArtifactShow>> ArtifactShow::create(const settings::Setti
             scene::united(show->needs_, residency::needs_of_any_pack(settings, options.samples, blocks));
         show->may_speak_ = settings.sound.kind != settings::SoundKind::None;
     }
+    if (show->windows_) {
+        show->needs_ = scene::with_points(std::move(show->needs_));
+    }
     TRY_VOID(show->renderer_.prepare(show->needs_));
     TRY_VOID(show->upload_set(options.other_sets));
     if (show->windows_) {
@@ -100,7 +104,7 @@ Result<void> ArtifactShow::upload_what_stays(const settings::Settings& settings)
         TRY_VOID(torches_->prepare(renderer_.store()));
     }
     if (settings.windows.exist()) {
-        windows_.emplace(settings, prop_, layout_.count);
+        windows_.emplace(settings, prop_, layout_.count, set_options_.waits);
         TRY_VOID(windows_->prepare(renderer_.store()));
     }
     return upload_signs(settings);
@@ -165,6 +169,9 @@ void ArtifactShow::measure(const settings::Settings& settings, const render::Ren
         cells->start(expected_.cost);
     }
     artifact_cache.start(expected_.cost, prop_, expected_.view, expected_.eye_m);
+    if (windows_) {
+        windows_->set_cost(expected_.cost);
+    }
 }
 
 /// Draws a whole picture and one that redraws only what moved, each with one of every picture on the table: drivers

@@ -6,7 +6,9 @@
 #include "app/scene/exposure.h"
 #include "app/scene/scene_level.h"
 #include "app/scene/torch_plan.h"
+#include "app/scene/window_patches.h"
 #include "app/scene/window_plan.h"
+#include "app/show/patch_view.h"
 #include "app/world/player.h"
 
 #include <algorithm>
@@ -79,6 +81,18 @@ Result<scene::PlacedLevel> upload(const Source& source, render::GpuStore& store)
         .drawable = drawable};
 }
 
+/// The drawn level, or for a relief the finest one that was read.
+scene::SceneLevel level_of(const Source& source) {
+    if (source.level) {
+        return *source.level;
+    }
+    std::uint32_t finest = 0;
+    for (std::uint32_t k = 0; k < source.pack.levels.size(); ++k) {
+        finest = source.pack.levels[k].indices.empty() ? finest : k;
+    }
+    return scene::whole_level(source.pack, finest);
+}
+
 /// "level0"; "level0+relief96".
 std::string names_of(const std::vector<Source>& sources) {
     std::string names;
@@ -123,8 +137,10 @@ Result<std::unique_ptr<OfflineRenderer>> OfflineRenderer::create(const OfflineSc
 
 Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     const std::vector<Source> sources = sources_of(scene);
-    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height,
-                                            needs_of(sources, scene.world.has_value(), scene.torch)));
+    const bool patches = scene.setup.options.window_patches;
+    scene::RenderNeeds needs = needs_of(sources, scene.world.has_value(), scene.torch);
+    needs = patches ? scene::with_points(std::move(needs)) : std::move(needs);
+    TRY(renderer_, render::Renderer::create(layout_.display.width, layout_.display.height, needs));
     technique_ = names_of(sources);
     std::size_t indices = 0;
     for (const Source& source : sources) {
@@ -136,6 +152,10 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
                                         : source.plan.seen[source.plan.quality_levels.front().level],
                           source.cell});
         parts_.push_back({std::move(placed), std::nullopt});
+        if (patches) {
+            const scene::SceneLevel level = level_of(source);
+            kept_.push_back({level, source.pack.textures[level.mesh.texture]});
+        }
     }
     if (scene.world) {
         cells_ = scene.world->cells;
@@ -163,6 +183,33 @@ void OfflineRenderer::pose_cells(double seconds) {
     }
 }
 
+std::unique_ptr<PatchJob> OfflineRenderer::patches_of(const Window& window, const glm::dvec3& eye_m) const {
+    const PatchView view = patch_view({.view = window.view,
+                                       .projector = projector_,
+                                       .table_from_projector = table_from_projector_,
+                                       .eye_m = eye_m,
+                                       .samples = window.parts.front().level.samples});
+    const auto make_world = [&]() -> Result<FrozenWorld> {
+        FrozenWorld world;
+        for (std::size_t k = 0; k < kept_.size(); ++k) {
+            const scene::PlacedLevel& level = window.parts[k].level;
+            add_level(kept_[k].level, kept_[k].texture, level.box_size, level.prop_from_box(), view.samples_per_m,
+                      world);
+        }
+        return world;
+    };
+    auto job = std::make_unique<PatchJob>(PatchJobSetUp{.make_world = make_world,
+                                                        .radius_m = view.radius_m,
+                                                        .view = view.cameras,
+                                                        .samples = view.samples,
+                                                        .number = windows_.size() + 1});
+    while (!job->is_done()) {
+        job->step();
+    }
+    job->update();
+    return job;
+}
+
 bool OfflineRenderer::pin(const scene::WindowPlace& place, const geometry::RigidTransform& table_from_prop,
                           const glm::dvec3& eye_m, double seconds) {
     pose_cells(seconds);
@@ -176,12 +223,16 @@ bool OfflineRenderer::pin(const scene::WindowPlace& place, const geometry::Rigid
     if (!view) {
         return false;
     }
-    auto window = std::make_unique<Window>(Window{*view, {}});
+    auto window = std::make_unique<Window>(Window{*view, {}, nullptr});
     scene::move_behind(view->window_from_prop, parts_, window->parts);
+    if (!kept_.empty()) {
+        window->patches = patches_of(*window, eye_m);
+    }
     placed_windows_.push_back({.surface = &window->view.surface,
                                .table_from_window = view->table_from_window,
                                .parts = window->parts,
-                               .brightness = exposure_});
+                               .brightness = exposure_,
+                               .patches = window->patches ? &window->patches->patches() : nullptr});
     windows_.push_back(std::move(window));
     return true;
 }

@@ -13,6 +13,7 @@
 #include "app/scene/pinned_view.h"
 #include "app/scene/stereo.h"
 #include "app/show/offline_scene.h"
+#include "app/show/patch_job.h"
 #include "firmware_host/display/surfaceless_display.h"
 
 #include <memory>
@@ -71,12 +72,20 @@ private:
     struct Window {
         scene::PinnedView view;
         std::vector<scene::Part> parts;
+        std::unique_ptr<PatchJob> patches; ///< none: not asked for
+    };
+    /// A level's triangles and texture, for the windows' patches.
+    struct Kept {
+        scene::SceneLevel level;
+        image::Image8 texture;
     };
 
     OfflineRenderer(const scene::StereoLayout& layout, const scene::ScenePlan& plan);
     /// Creates a renderer for all of the scene, and takes what it draws.
     [[nodiscard]] Result<void> take(const OfflineScene& scene);
     [[nodiscard]] Result<void> take_torch(const OfflineScene& scene);
+    /// Makes all patches of a window.
+    [[nodiscard]] std::unique_ptr<PatchJob> patches_of(const Window& window, const glm::dvec3& eye_m) const;
     /// The film's frame at a time since its content began.
     void show_film(double seconds);
     void pose_cells(double seconds);
@@ -101,6 +110,7 @@ private:
     torch::Beam beam_;
     scene::TextureId torch_picture_ = scene::TextureId::None;
     std::size_t film_frame_ = 0;
+    std::vector<Kept> kept_; ///< one for each of `parts_`; empty: no patches are made
     std::vector<std::unique_ptr<const Window>> windows_;
     std::vector<scene::PlacedWindow> placed_windows_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye

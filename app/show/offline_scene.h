@@ -38,6 +38,7 @@ struct OfflineOptions {
     std::string torch =
         {}; ///< content that torches throw: torch::white_name, or one of the pack's; empty: there are none
     std::size_t windows = 0; ///< that may be pinned, up to scene::max_windows
+    bool window_patches = false; ///< draws windows by their points wherever an eye has some (scene/window_patches.h)
 };
 
 struct OfflineSetup {

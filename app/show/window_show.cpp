@@ -46,8 +46,10 @@ scene::WindowPlace place_of(const typography::TableRectangle& rectangle) {
 
 } // namespace
 
-WindowShow::WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes)
-    : windows_(settings.windows), frame_m_(line_width_m(settings.projector)), prop_middle_m_(prop.middle) {
+WindowShow::WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes,
+                       bool waits)
+    : windows_(settings.windows), frame_m_(line_width_m(settings.projector)), prop_middle_m_(prop.middle),
+      frozen_(settings.projector, waits) {
     for (std::size_t eye = 0; eye < eyes; ++eye) {
         spaces_.push_back(scene::make_plan(prop, 0, 1));
     }
@@ -63,6 +65,7 @@ std::uint64_t WindowShow::planned_gpu_bytes() const {
 }
 
 void WindowShow::make_space(const residency::ArtifactCache& cache) {
+    frozen_.clear();
     std::size_t indices = 0, parts = 1;
     for (std::size_t artifact = 0; artifact < cache.size(); ++artifact) {
         const residency::KnownArtifact& known = cache.known(artifact);
@@ -165,6 +168,30 @@ WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
     return *found;
 }
 
+void WindowShow::begin_patches(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
+                               const Held& held) {
+    if (held.is_aimed) {
+        frozen_.freeze({.number = window.number,
+                        .known = cache.known(window.artifact),
+                        .shown = cache.find(window.artifact)->shown_quality(),
+                        .parts = held.moved,
+                        .view = held.view,
+                        .eye_m = window.eye_m});
+    }
+}
+
+const scene::WindowPatches* WindowShow::patches_for(std::uint32_t number,
+                                                    const geometry::RigidTransform& table_from_window,
+                                                    std::span<const glm::dvec3> eyes_m) {
+    std::array<glm::dvec3, 2> eyes{};
+    const std::size_t count = std::min(eyes.size(), eyes_m.size());
+    const geometry::RigidTransform window_from_table = table_from_window.inverse();
+    for (std::size_t k = 0; k < count; ++k) {
+        eyes[k] = window_from_table.point(eyes_m[k]);
+    }
+    return frozen_.look(number, std::span(eyes).first(count));
+}
+
 std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentation& presentation,
                                                        std::span<const glm::dvec3> eyes_m,
                                                        const residency::ArtifactCache& cache) {
@@ -177,6 +204,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
         }
         if (held.comings != window.comings) {
             aim(window, held);
+            begin_patches(window, cache, held);
         }
         double share = 1.0;
         for (const glm::dvec3& eye : eyes_m) {
@@ -192,8 +220,10 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
         placed_.at(count++) = {.surface = &held.view.surface,
                                .table_from_window = table_from_window,
                                .parts = held.moved,
-                               .brightness = brightness};
+                               .brightness = brightness,
+                               .patches = patches_for(window.number, table_from_window, eyes_m)};
     }
+    frozen_.step(presentation.windows.windows());
     return std::span(placed_).first(count);
 }
 

@@ -1,6 +1,7 @@
 /// The windows that visitors have pinned, in the picture: what each shows, frozen when it was pinned, and a thin frame around it.
 ///
-/// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye. The governor's
+/// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye, or their
+///          patches are (frozen_windows.h). The governor's
 ///          later choices do not change them. A window whose artifact leaves the cache shows nothing any more.
 /// Slant    a window is seen from within 60 degrees of its normal; beyond `full_deg` it fades, and is dark at the limit. Its
 ///          frame stays.
@@ -18,6 +19,7 @@
 #include "app/scene/frame_plan.h"
 #include "app/scene/pinned_view.h"
 #include "app/settings/settings.h"
+#include "app/show/frozen_windows.h"
 
 #include <array>
 #include <cstddef>
@@ -35,8 +37,10 @@ public:
     static constexpr double frame_px = 1.3;          ///< or as many of the projector's pixels
     static constexpr double frame_brightness = 0.35; ///< of the texts' light
 
-    /// `eyes`: of the layout.
-    WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes);
+    /// `eyes`: of the layout. `waits`: patches (frozen_windows.h) are made at once, so that a run of simulated time is repeatable.
+    WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes, bool waits);
+    /// Of frames on this GPU.
+    void set_cost(const scene::FrameCost& cost) { frozen_.set_cost(cost); }
     /// Uploads the frame's texel.
     [[nodiscard]] Result<void> prepare(render::GpuStore& store);
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
@@ -71,6 +75,11 @@ private:
     void freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                 Held& held) const;
     void aim(const exhibit::PresentedWindow& window, Held& held) const;
+    void begin_patches(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
+                       const Held& held);
+    [[nodiscard]] const scene::WindowPatches* patches_for(std::uint32_t number,
+                                                          const geometry::RigidTransform& table_from_window,
+                                                          std::span<const glm::dvec3> eyes_m);
 
     settings::WindowSettings windows_;
     double frame_m_;
@@ -79,6 +88,7 @@ private:
     std::array<Held, settings::max_windows + 1> held_{};
     std::vector<scene::FramePlan> spaces_; ///< one for each eye: of these, the windows
     std::array<scene::PlacedWindow, settings::max_windows> placed_{};
+    FrozenWindows frozen_;
 };
 
 /// Gives plans room for windows while a frame is drawn.

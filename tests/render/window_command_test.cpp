@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 
@@ -75,6 +77,40 @@ TEST_F(PinCommand, PinsWhatTheFirstPoseShows) {
         EXPECT_GT(left, 100U) << frame;
         EXPECT_GT(right, 100U) << frame;
     }
+}
+
+/// Patches instead of geometry: the same picture but for small differences, and nothing else changes.
+TEST_F(PinCommand, PatchesShowWhatGeometryShows) {
+    const std::string pins = "--pin 0.15,0 --pin -0.15,0,30 --windows ";
+    ASSERT_EQ(run(pins + "geometry", "geometry"), 0) << text("err.txt");
+    ASSERT_EQ(run(pins + "patches", "patches"), 0) << text("err.txt");
+    ASSERT_EQ(run(pins + "patches", "again"), 0) << text("err.txt");
+    for (const int frame : {0, 1}) {
+        const image::Image8 geometry = picture("geometry", frame);
+        const image::Image8 patches = picture("patches", frame);
+        EXPECT_EQ(patches.texels, picture("again", frame).texels);
+        double sum = 0.0;
+        double lit = 0.0;
+        std::size_t other = 0;
+        for (int y = 0; y < geometry.height; ++y) {
+            for (int x = 0; x < geometry.width; ++x) {
+                const glm::dvec3 a(glm::u8vec3(geometry.at(x, y)));
+                const glm::dvec3 b(glm::u8vec3(patches.at(x, y)));
+                if (is_prop(x, y, 0.01 * frame)) {
+                    EXPECT_EQ(a, b) << x << ' ' << y;
+                } else if (a != glm::dvec3(0.0) || b != glm::dvec3(0.0)) {
+                    sum += glm::dot(a - b, a - b) / 3.0;
+                    lit += 1.0;
+                    other += a != b ? 1U : 0U;
+                }
+            }
+        }
+        EXPECT_GT(lit, 200.0);
+        EXPECT_GT(other, 20U) << "patches were drawn";
+        std::printf("frame %d: RMSE %.2f codes over %.0f lit pixels\n", frame, std::sqrt(sum / lit), lit);
+        EXPECT_LE(std::sqrt(sum / lit), 16.0) << "outlines too, on 320 x 200 pixels";
+    }
+    EXPECT_EQ(run(pins + "points"), 2);
 }
 
 TEST_F(PinCommand, WrongUseIsOneSentence) {

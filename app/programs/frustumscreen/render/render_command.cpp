@@ -42,6 +42,7 @@ struct Request {
     int height = 0;
     bool no_light = false;
     std::vector<std::string> pins;
+    std::string windows = "geometry"; ///< what draws them
     show::OfflineOptions options;
 };
 
@@ -93,6 +94,11 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         .check(is_pin())
         .allow_extra_args(false)
         .type_name("X,Y[,YAW_DEG]");
+    app.add_option("--windows", request.windows,
+                   "what draws windows: geometry, the artifact's level or relief; or patches, points made of it "
+                   "beforehand for the eyes above the window")
+        .one_of({"geometry", "patches"})
+        .capture_default_str();
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points,
                  "also write hit points (frame_00000.pfm; prop frame, metres)");
@@ -206,6 +212,7 @@ show::OfflineOptions options_for(const Request& request, EyeChoice eye, const se
     show::OfflineOptions options = request.options;
     options.both_eyes = eye == EyeChoice::Both;
     options.windows = request.pins.size();
+    options.window_patches = options.windows > 0 && request.windows == "patches";
     for (const tracking::TrackedState& frame : frames) {
         for (const glm::dvec3& eye_m : chosen_eyes(eye, frame, 1e-3 * settings.interocular_mm)) {
             options.views.push_back({frame.table_from_prop, eye_m});

@@ -1,0 +1,83 @@
+/// The patches of the windows on the table: made by a thread that exists while they are made, drawn where they are ready.
+///
+/// Choice   a window is drawn by its patches if that takes less time than its parts, by the costs that the governor measured; by
+///          its parts until the eye's patch is ready, and for eyes beyond the patches (scene/window_patches.h). Parts of a world of
+///          cells, and those in coloured light, are drawn as they are.
+/// Frames   table T; window: as scene::PinnedView.
+/// Threads  the thread that draws; it never waits for the other one, but with `waits` it makes all patches itself.
+/// Memory   for each window PatchJobSetUp::max_bytes, and the world while patches are made.
+/// Errors   none: a pack that cannot be read again has no patches.
+#pragma once
+
+#include "app/exhibit/presented_windows.h"
+#include "app/residency/prepared_artifact.h"
+#include "app/scene/frame_time_model.h"
+#include "app/settings/settings.h"
+#include "app/show/patch_view.h"
+#include "app/show/patch_worker.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace frustumscreen::show {
+
+/// What a window froze.
+struct FrozenWindow {
+    std::uint32_t number = 0;
+    const residency::KnownArtifact& known;
+    scene::QualityLevel shown;          ///< of the whole artifact
+    std::span<const scene::Part> parts; ///< in the window's frame
+    const scene::PinnedView& view;
+    glm::dvec3 eye_m{0.0};
+};
+
+/// True if the patches of a window take less time than its part.
+[[nodiscard]] bool patches_are_quicker(const scene::FrameCost& cost, const scene::PlacedLevel& part,
+                                       const PatchView& view);
+
+/// The level that patches show: the shown one, or of a relief the coarsest level that errs no more, otherwise the finest.
+[[nodiscard]] std::uint32_t level_for(const pack::PackOutline& outline, const scene::ScenePlan& plan,
+                                      const scene::QualityLevel& shown);
+
+class FrozenWindows {
+public:
+    FrozenWindows(const settings::ProjectorSettings& projector, bool waits);
+
+    /// Of frames on this GPU; before, no patches are made.
+    void set_cost(const scene::FrameCost& cost) { cost_ = cost; }
+    /// Begins the window's patches, in place of those that it had.
+    void freeze(const FrozenWindow& window);
+    /// Begins with this world; `freeze` without the choice.
+    void begin(std::uint32_t number, PatchJobSetUp set_up);
+    /// What is ready for a window, which these eyes look at, window's frame; null: it has no patches.
+    [[nodiscard]] const scene::WindowPatches* look(std::uint32_t number, std::span<const glm::dvec3> eyes);
+    /// Once a frame, after all `look`: forgets windows that are not among these, and gives the thread its work.
+    void step(std::span<const exhibit::PresentedWindow> windows);
+    void clear();
+
+    [[nodiscard]] std::size_t size() const { return windows_.size(); }
+    [[nodiscard]] bool has_thread() const { return worker_ != nullptr; }
+
+private:
+    struct Window {
+        std::uint32_t number = 0;
+        std::shared_ptr<PatchJob> job;
+        std::optional<std::size_t> patch; ///< that was looked at last
+    };
+    void give_work();
+
+    geometry::Pinhole projector_;
+    geometry::RigidTransform table_from_projector_;
+    bool waits_;
+    std::optional<scene::FrameCost> cost_;
+    std::vector<Window> windows_;
+    std::uint64_t last_number_ = 0; ///< of jobs
+    bool is_new_ = false;           ///< the worker does not know the windows
+    bool looks_elsewhere_ = false;
+    std::unique_ptr<PatchWorker> worker_;
+};
+
+} // namespace frustumscreen::show

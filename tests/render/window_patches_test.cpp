@@ -1,0 +1,214 @@
+// Windows drawn by their patches, against rays and against the same windows drawn by geometry.
+
+#include "app/ldi/point_maker.h"
+#include "app/scene/window_patches.h"
+#include "tests/render/window_rig.h"
+
+#include <cmath>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+int part_of_code(const glm::u8vec4& code) {
+    const int brightest = std::max({code.r, code.g, code.b});
+    return brightest < 128 ? -1 : brightest == code.r ? 0 : brightest == code.g ? 1 : 2;
+}
+
+/// All patches of a pinned window, each part in red, green or blue.
+struct Patched {
+    std::array<std::shared_ptr<const ldi::PointPatch>, ldi::patch_count> made;
+    scene::WindowPatches patches;
+};
+
+std::vector<ldi::TriangleWorld> worlds_of(const Pinned& pinned, geometry::Box& box) {
+    std::vector<ldi::TriangleWorld> worlds;
+    for (std::size_t part = 0; part < pinned.parts.size(); ++part) {
+        const scene::PlacedLevel& level = pinned.parts[part].level;
+        ldi::TriangleWorld& world = worlds.emplace_back();
+        world.indices = level.triangles->indices;
+        for (const glm::vec3& position : level.triangles->positions) {
+            const glm::dvec3 at(level.prop_from_box() * glm::dvec4(position, 1.0));
+            const bool first = worlds.size() == 1 && world.positions.empty();
+            box = first ? geometry::Box{at, at} : geometry::Box{glm::min(box.low, at), glm::max(box.high, at)};
+            world.positions.emplace_back(at);
+        }
+        glm::u8vec4 colour(0, 0, 0, 255);
+        colour[static_cast<int>(part)] = 255;
+        world.colours.assign(world.positions.size(), colour);
+    }
+    return worlds;
+}
+
+Patched patched(const WindowRig& rig, const Pinned& pinned, int samples) {
+    const geometry::RigidTransform& from_window = pinned.view.table_from_window;
+    const glm::dvec2 half_m(pinned.view.surface.faces.front().corners[2]);
+    const double pixel_m =
+        glm::distance(rig.table.table_from_projector.translation, from_window.translation) / rig.table.projector.fx;
+    const double per_m = (samples > 1 ? 2.0 : 1.0) / pixel_m;
+    const ldi::Hemisphere hemisphere(glm::distance(rig.table.eye_m, from_window.translation));
+    Patched result{.made = {}, .patches = {.hemisphere = hemisphere, .box = {}, .samples = samples}};
+    std::vector<ldi::TriangleWorld> worlds = worlds_of(pinned, result.patches.box);
+    ldi::PointMaker maker(std::move(worlds), hemisphere,
+                          {.half_extent_m = half_m,
+                           .width = static_cast<int>(std::lround(2.0 * half_m.x * per_m)),
+                           .height = static_cast<int>(std::lround(2.0 * half_m.y * per_m)),
+                           .margin = 1.4},
+                          std::uint64_t{1} << 30U);
+    while (maker.step(1'000'000)) {
+    }
+    for (std::size_t k = 0; k < ldi::patch_count; ++k) {
+        result.made[k] = maker.patch(k);
+        result.patches.patches[k] = result.made[k].get();
+    }
+    return result;
+}
+
+std::vector<Patched> all_patched(const WindowRig& rig, int samples) {
+    std::vector<Patched> all;
+    for (const Pinned& pinned : rig.pinned) {
+        all.push_back(patched(rig, pinned, samples));
+    }
+    return all;
+}
+
+std::vector<scene::PlacedWindow> with_patches(const WindowRig& rig, const std::vector<Patched>& all) {
+    std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
+    for (std::size_t k = 0; k < windows.size(); ++k) {
+        windows[k].patches = &all[k].patches;
+    }
+    return windows;
+}
+
+/// How many of the windows of the latest plan were drawn by points.
+std::size_t drawn_by_points(const scene::FramePlan& plan) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < plan.window_count; ++k) {
+        const scene::FramePlan& window = plan.windows[k];
+        count += window.relief_draw_count > 0 && window.relief_draws.front().points != nullptr ? 1U : 0U;
+    }
+    return count;
+}
+
+/// The pinning eye moved about the window by up to a quarter of its distance.
+void move_eye(TestTable& table, std::mt19937& random) {
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    table.eye_m += 0.25 * table.eye_m.z * glm::dvec3(u(random), u(random), 0.5 * u(random));
+}
+
+void check_rays(int samples, const geometry::Lens& lens, bool points) {
+    WindowRig rig(ball_and_post(), std::array{Way::Mesh, Way::Mesh, Way::Mesh}, samples, lens);
+    std::mt19937 random(62);
+    WindowCounts counts;
+    std::size_t by_points = 0;
+    for (int pose = 0; pose < 6; ++pose) {
+        rig.table.shuffle(random);
+        rig.table.eye_m.z = std::max(rig.table.eye_m.z, 0.6);
+        rig.pin_some(random, 2);
+        const std::vector<Patched> all = all_patched(rig, samples);
+        move_eye(rig.table, random);
+        const image::Image8 without = rig.world.picture(rig.view({}));
+        const std::vector<scene::PlacedWindow> windows = with_patches(rig, all);
+        const image::Image8 with = rig.world.picture(rig.view(windows));
+        by_points += drawn_by_points(rig.world.plan);
+        count_pixels(
+            WindowTruth(rig.table, rig.pinned), {.outline_px = 1.5, .edge_px = samples == 1 ? 1.0 / 32.0 : 1.0},
+            without, with, part_of_code,
+            [&](const glm::dvec3& from, const glm::dvec3& direction) { return rig.first(from, direction); },
+            counts);
+    }
+    std::printf("%zu windows of 12 by points; %zu pixels show something, %zu nothing; %zu at an outline, %zu at "
+                "an edge; %zu wrong\n",
+                by_points, counts.shown, counts.empty, counts.outline, counts.edge, counts.wrong);
+    EXPECT_EQ(by_points > 6, points);
+    EXPECT_EQ(by_points > 0, points);
+    EXPECT_GT(counts.shown, 2000U);
+    EXPECT_LE(counts.wrong, counts.windows() / 200); // as docs/ldi.md promises of pictures of patches
+    EXPECT_LT(counts.outline, counts.windows() / 10);
+}
+
+TEST(WindowPatches, ShowWhatRaysMeet) {
+    check_rays(1, {}, true);
+    check_rays(4, {}, true);
+}
+
+TEST(WindowPatches, AreNotUsedBehindALensThatBendsLines) {
+    check_rays(1, lenses[1], false);
+}
+
+/// Pixels that show one part for a pixel and a half around.
+TEST(WindowPatches, HaveTheLightThatGeometryHas) {
+    WindowRig rig(ball_and_post(), std::array{Way::Mesh, Way::Mesh, Way::Mesh}, 4);
+    std::mt19937 random(7);
+    double sum = 0.0;
+    std::size_t count = 0;
+    std::size_t by_points = 0;
+    for (int pose = 0; pose < 4; ++pose) {
+        rig.table.shuffle(random);
+        rig.table.eye_m.z = std::max(rig.table.eye_m.z, 0.6);
+        rig.pin_some(random, 2);
+        const std::vector<Patched> all = all_patched(rig, 4);
+        move_eye(rig.table, random);
+        std::vector<scene::PlacedWindow> windows = with_patches(rig, all);
+        for (scene::PlacedWindow& window : windows) {
+            window.brightness = 0.7;
+        }
+        const image::Image8 points = rig.world.picture(rig.view(windows, scene::LightCompensation{}));
+        by_points += drawn_by_points(rig.world.plan);
+        for (scene::PlacedWindow& window : windows) {
+            window.patches = nullptr;
+        }
+        const image::Image8 geometry = rig.world.picture(rig.view(windows, scene::LightCompensation{}));
+        const WindowTruth truth(rig.table, rig.pinned);
+        for (int y = 0; y < points.height; ++y) {
+            for (int x = 0; x < points.width; ++x) {
+                const glm::dvec2 pixel(x + 0.5, y + 0.5);
+                const LitPlace lit = truth.at(pixel);
+                if (lit.window < 0) {
+                    continue;
+                }
+                const auto shown = [&](const glm::dvec2& at) {
+                    const LitPlace place = truth.at(at);
+                    const PropRay ray = truth.ray(lit.window, place.point);
+                    return place.window == lit.window ? rig.first(ray.from, ray.direction) : -2;
+                };
+                const int part = shown(pixel);
+                if (part < 0 ||
+                    !truth.all_around(pixel, 2.0, [&](const glm::dvec2& at) { return shown(at) == part; })) {
+                    continue;
+                }
+                const double off = points.at(x, y)[part] - geometry.at(x, y)[part];
+                sum += off * off;
+                ++count;
+            }
+        }
+    }
+    EXPECT_GT(by_points, 4U);
+    ASSERT_GT(count, 1000U);
+    EXPECT_LE(std::sqrt(sum / static_cast<double>(count)), 2.0);
+}
+
+/// A plan of points and one of geometry are not equal, nor are two patches.
+TEST(WindowPatches, ChangeTheHashOfThePlan) {
+    WindowRig rig(as_one(ball_and_post()), std::array{Way::Mesh});
+    rig.table.eye_m = {0.1, -0.3, 0.7};
+    rig.pin({.middle_m = {0.15, 0.0}, .width_m = 0.075, .depth_m = 0.075});
+    ldi::PointPatch one, other;
+    one.number = 1;
+    other.number = 2;
+    scene::WindowPatches patches{.hemisphere = ldi::Hemisphere(0.77), .box = {glm::dvec3(-0.05), glm::dvec3(0.0)}};
+    std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
+    std::vector<std::uint64_t> hashes;
+    for (const ldi::PointPatch* const patch : {static_cast<const ldi::PointPatch*>(nullptr),
+                                               static_cast<const ldi::PointPatch*>(&one),
+                                               static_cast<const ldi::PointPatch*>(&other)}) {
+        patches.patches.fill(patch);
+        windows.front().patches = &patches;
+        (void)rig.world.picture(rig.view(windows));
+        hashes.push_back(rig.world.plan.hash);
+    }
+    EXPECT_NE(hashes[0], hashes[1]);
+    EXPECT_NE(hashes[1], hashes[2]);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic

@@ -1,0 +1,165 @@
+// The patches of frozen windows: a thread that is slow never holds up a frame, and none exists without windows.
+#include "app/show/frozen_windows.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <thread>
+
+namespace frustumscreen::show {
+namespace {
+
+using std::chrono::milliseconds;
+
+FrozenWorld a_wall() {
+    FrozenWorld world;
+    ldi::TriangleWorld& wall = world.worlds.emplace_back();
+    wall.positions = {{-0.3F, -0.3F, -0.05F}, {0.3F, -0.3F, -0.05F}, {0.3F, 0.3F, -0.05F}, {-0.3F, 0.3F, -0.05F}};
+    wall.indices = {0, 1, 2, 0, 2, 3};
+    wall.colours.assign(4, glm::u8vec4(200, 100, 50, 255));
+    world.box = {{-0.3, -0.3, -0.05}, {0.3, 0.3, -0.05}};
+    return world;
+}
+
+PatchJobSetUp set_up(std::function<Result<FrozenWorld>()> make_world) {
+    return {.make_world = std::move(make_world),
+            .radius_m = 0.5,
+            .view = {.half_extent_m = glm::dvec2(0.05), .width = 32, .height = 32}};
+}
+
+exhibit::PresentedWindow presented(std::uint32_t number) {
+    exhibit::PresentedWindow window;
+    window.number = number;
+    return window;
+}
+
+constexpr glm::dvec3 above{0.0, 0.0, 0.5};
+
+/// Draws frames until the patch of the eye is there; false: it did not come.
+bool comes(FrozenWindows& windows, std::uint32_t number, const glm::dvec3& eye) {
+    for (int frame = 0; frame < 6000; ++frame) {
+        const scene::WindowPatches* const patches = windows.look(number, {&eye, 1});
+        const exhibit::PresentedWindow shown = presented(number);
+        windows.step({&shown, 1});
+        if (patches != nullptr && scene::points_for(*patches, eye) != nullptr) {
+            return true;
+        }
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    return false;
+}
+
+TEST(FrozenWindows, FramesGoOnWhileTheThreadHangs) {
+    FrozenWindows windows({}, false);
+    std::promise<void> opens;
+    std::shared_future<void> open = opens.get_future().share();
+    std::atomic<bool> reads{false};
+    windows.begin(1, set_up([&]() -> Result<FrozenWorld> {
+                      reads = true;
+                      open.wait();
+                      return a_wall();
+                  }));
+    const exhibit::PresentedWindow shown = presented(1);
+    windows.step({&shown, 1});
+    while (!reads) {
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    for (int frame = 0; frame < 1000; ++frame) { // the thread reads, and none of these waits for it
+        const scene::WindowPatches* const patches = windows.look(1, {&above, 1});
+        ASSERT_NE(patches, nullptr);
+        EXPECT_EQ(scene::points_for(*patches, above), nullptr) << "the window is drawn by its parts";
+        windows.step({&shown, 1});
+    }
+    opens.set_value();
+    EXPECT_TRUE(comes(windows, 1, above));
+}
+
+TEST(FrozenWindows, ThePatchThatIsLookedAtComesWhereverTheEyeGoes) {
+    FrozenWindows windows({}, false);
+    windows.begin(7, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
+    const ldi::Hemisphere hemisphere(0.5);
+    for (std::size_t patch = 0; patch < ldi::patch_count; ++patch) {
+        EXPECT_TRUE(comes(windows, 7, 0.5 * hemisphere.middle_of(patch))) << patch;
+    }
+    const glm::dvec3 low(0.49, 0.0, 0.05), far(0.0, 0.0, 1.2), near(0.0, 0.0, 0.2);
+    for (const glm::dvec3& eye : {low, far, near}) {
+        EXPECT_EQ(scene::points_for(*windows.look(7, {&eye, 1}), eye), nullptr) << "beyond the patches";
+    }
+}
+
+TEST(FrozenWindows, AWorldThatCannotBeReadHasNoPatches) {
+    FrozenWindows windows({}, true);
+    windows.begin(1, set_up([]() -> Result<FrozenWorld> { return bad_input("test.gone", "gone"); }));
+    EXPECT_EQ(scene::points_for(*windows.look(1, {&above, 1}), above), nullptr);
+}
+
+TEST(FrozenWindows, ThatWaitHaveTheirPatchesInTheFirstFrameAndNoThread) {
+    FrozenWindows windows({}, true);
+    windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
+    const scene::WindowPatches& patches = *windows.look(1, {&above, 1});
+    for (const ldi::PointPatch* const patch : patches.patches) {
+        ASSERT_NE(patch, nullptr);
+    }
+    EXPECT_FALSE(windows.has_thread());
+}
+
+TEST(FrozenWindows, NoThreadIsThereWithoutAWindow) {
+    FrozenWindows windows({}, false);
+    windows.step({});
+    EXPECT_FALSE(windows.has_thread());
+    EXPECT_EQ(windows.look(1, {&above, 1}), nullptr);
+    windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
+    EXPECT_TRUE(comes(windows, 1, above));
+    EXPECT_TRUE(windows.has_thread());
+    for (int frame = 0; frame < 6000 && windows.has_thread(); ++frame) {
+        windows.step({}); // the window has gone
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_EQ(windows.size(), 0U);
+    EXPECT_FALSE(windows.has_thread());
+}
+
+scene::PlacedLevel level_of(std::size_t triangles) {
+    auto level = std::make_shared<scene::LevelTriangles>();
+    level->indices.resize(3 * triangles);
+    scene::PlacedLevel placed;
+    placed.triangles = std::move(level);
+    placed.samples = 4;
+    return placed;
+}
+
+TEST(FrozenWindows, PatchesAreChosenWhereTheyTakeLessTime) {
+    PatchView view;
+    view.cameras.width = view.cameras.height = 320;
+    view.samples = 4;
+    const scene::FrameCost software{.mesh = {.fixed_ms = 5.0, .ms_per_triangle = 5e-5, .ms_per_sample = 1e-5},
+                                    .raster = {},
+                                    .on_gpu = {}};
+    EXPECT_TRUE(patches_are_quicker(software, level_of(200'000), view));
+    EXPECT_FALSE(patches_are_quicker(software, level_of(10'000), view));
+    scene::FrameCost quick = software;
+    quick.mesh.ms_per_triangle = quick.mesh.ms_per_sample = 1e-7;
+    EXPECT_FALSE(patches_are_quicker(quick, level_of(200'000), view)) << "a GPU that draws them at once";
+    EXPECT_FALSE(patches_are_quicker({}, level_of(200'000), view)) << "no cost is known";
+}
+
+TEST(FrozenWindows, PatchesOfAReliefShowALevelThatErrsNoMore) {
+    pack::PackOutline outline;
+    for (const float error : {4e-3F, 2e-3F, 1e-3F}) {
+        outline.levels.emplace_back().error.mean_box = error;
+    }
+    scene::ScenePlan plan;
+    plan.reliefs.resize(2);
+    plan.reliefs[0].texels = 64;
+    plan.reliefs[0].error.mean_box = 2.5e-3F;
+    plan.reliefs[1].texels = 256;
+    plan.reliefs[1].error.mean_box = 1e-4F;
+    EXPECT_EQ(level_for(outline, plan, {.level = 64, .relief = true}), 1U);
+    EXPECT_EQ(level_for(outline, plan, {.level = 256, .relief = true}), 2U) << "the finest there is";
+    EXPECT_EQ(level_for(outline, plan, {.level = 0}), 0U);
+}
+
+} // namespace
+} // namespace frustumscreen::show
