@@ -350,15 +350,14 @@ TEST(Promises, ATableTooSmallForThePropIsToldByItsOverhang) {
 
 /// A technician lays the prop on two more crosses whenever the verdict asks for it. Aiming counts by the pixel: 0.75 of these pixels
 /// are half a pixel of a picture of 1280 x 800, and 1.5 are half a pixel of 640 x 400, which is too coarse for some tables.
-TEST(Promises, MoreCrossesLeadToAVerdictThatCanBeKept) {
+void expect_a_verdict_that_can_be_kept(int tables) {
     constexpr int max_touches = 30;
-    constexpr int tables = 40;
     const std::vector<Cross> crosses =
         choose_crosses(shipped_model(), shipped_cross_setup(shipped_touches), max_touches - shipped_touches);
     ASSERT_EQ(crosses.size(), static_cast<std::size_t>(max_touches));
     for (const double pixel : {0.75, 1.5}) {
         int kept = 0, too_few_first = 0, touches_in_all = 0;
-        for (std::uint64_t seed = 1; seed <= tables; ++seed) {
+        for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tables); ++seed) {
             const simulators::SimulatedTable table = simulators::shipped_table(seed);
             TouchSetup setup = setup_for(table);
             setup.noise.pixel = pixel;
@@ -384,6 +383,15 @@ TEST(Promises, MoreCrossesLeadToAVerdictThatCanBeKept) {
                     shipped_touches);
         EXPECT_GE(kept, pixel < 1.0 ? tables : tables / 2);
     }
+}
+
+/// Twelve tables find what forty do where the reported distances are 1.3 times too large: at the coarser pixel none can be kept.
+TEST(Promises, MoreCrossesLeadToAVerdictThatCanBeKept) {
+    expect_a_verdict_that_can_be_kept(12);
+}
+
+TEST(Promises, DISABLED_TheFiguresOfMoreCrosses) {
+    expect_a_verdict_that_can_be_kept(40);
 }
 
 /// One corner, at one of its distances, is moved by 50 mm along the table: nine of ten are refused.
