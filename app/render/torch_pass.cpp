@@ -4,6 +4,10 @@
 #include "app/scene/torch_plan.h"
 
 #include <GLES2/gl2ext.h>
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include <algorithm>
+#include <cstdint>
 
 namespace frustumscreen::render {
 
@@ -20,6 +24,31 @@ gl::GlTexture make_texture(GLenum format, GLint filter) {
         glTexParameteri(GL_TEXTURE_2D, direction, GL_CLAMP_TO_EDGE);
     }
     return texture;
+}
+
+/// True if the torch lies in the level's box, and so may be in the object.
+bool is_within(const scene::TorchLight& light, const scene::PlacedLevel& level) {
+    const glm::dvec3 torch(glm::affineInverse(light.torch_from_prop * level.prop_from_placed)[3]);
+    const geometry::Box box = level.placed_box();
+    return glm::all(glm::greaterThanEqual(torch, box.low)) && glm::all(glm::lessThanEqual(torch, box.high));
+}
+/// A wall seen from within that slants by some 50 degrees still hides its own outer side.
+constexpr double inside_slacks = 6.0;
+
+/// The triangles of a part that the torch sees from the front; if it may be within the part, all.
+std::span<const std::uint32_t> cast_triangles(const scene::TorchLight& light, const scene::FramePlan& view,
+                                              std::size_t part) {
+    const scene::PlacedLevel& level = view.casters[part].level;
+    if (!level.triangles || level.drawable.material.cut_out) {
+        return {};
+    }
+    if (is_within(light, level)) {
+        return level.triangles->indices;
+    }
+    const auto draw = std::find_if(view.draws.begin(), view.draws.end(),
+                                   [part](const scene::Draw& each) { return each.part == part; });
+    return draw != view.draws.end() ? std::span(view.indices).subspan(draw->range.first, draw->range.count)
+                                    : std::span<const std::uint32_t>();
 }
 
 } // namespace
@@ -103,14 +132,16 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
     const geometry::Pinhole& pinhole = view.projector;
     const glm::dmat3 picture_from_ray(pinhole.fx, 0.0, 0.0, 0.0, pinhole.fy, 0.0, pinhole.cx, pinhole.cy,
                                       1.0);
-    for (const scene::Draw& draw : view.draws) {
-        if (draw.shader.pass == scene::ShaderKey::Pass::Surface) {
-            const scene::PlacedLevel& level = view.casters[draw.part].level;
-            shadow_map_.draw({.picture_from_model = picture_from_ray * glm::dmat4x3(light.torch_from_prop *
-                                                                                    level.prop_from_box()),
-                              .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x)},
-                             level.triangles->positions,
-                             std::span(view.indices).subspan(draw.range.first, draw.range.count));
+    for (std::size_t part = 0; part < view.casters.size(); ++part) {
+        const scene::PlacedLevel& level = view.casters[part].level;
+        const std::span<const std::uint32_t> indices = cast_triangles(light, view, part);
+        if (!indices.empty()) {
+            shadow_map_.draw(
+                {.picture_from_model =
+                     picture_from_ray * glm::dmat4x3(light.torch_from_prop * level.prop_from_box()),
+                 .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x),
+                 .inside_nearer = is_within(light, level) ? inside_slacks * slack_of(light) : 0.0},
+                level.triangles->positions, indices);
         }
     }
     shadow_map_.find_farthest_of_four();

@@ -36,11 +36,8 @@ void set_beam(const Shader& shader, const scene::TorchLight& light, const glm::v
     glUniform4fv(shader.location(Uniform::Fall), 1, glm::value_ptr(fall));
     const glm::vec4 way(beam.full_m, 1.0 / (beam.dark_m - beam.full_m), light.torch.brightness, 0.0);
     glUniform4fv(shader.location(Uniform::Way), 1, glm::value_ptr(way));
-    // Half a pixel of the torch's picture: the depth of a surface that bends within a pixel.
-    const glm::dvec2 extent = torch::half_extent(beam);
-    const double nearer = std::min({extent.x, extent.y, 1.0}) / scene::torch_picture_px;
     glUniform3f(shader.location(Uniform::InverseZ), inverse_z.x, inverse_z.y,
-                light.torch.casts_shadows ? static_cast<float>(nearer) : 0.0F);
+                static_cast<float>(slack_of(light)));
 }
 
 void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
@@ -72,6 +69,11 @@ const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key
     const Shader* const own = shaders.find(scene::torch_of(key, parts));
     const unsigned any = torch::all_parts | (parts & unsigned{torch::OverPart | torch::BarePart});
     return own != nullptr ? own : shaders.find(scene::torch_of(key, static_cast<std::uint8_t>(any)));
+}
+
+double slack_of(const scene::TorchLight& light) {
+    const glm::dvec2 extent = torch::half_extent(light.torch.beam);
+    return std::min({extent.x, extent.y, 1.0}) / scene::torch_picture_px;
 }
 
 bool shows_layer(const scene::TorchLight& light) {

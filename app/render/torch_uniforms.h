@@ -38,6 +38,9 @@ void bind(unsigned unit, unsigned texture);
 /// Texture units of torch_shader.h.
 inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7, depths_unit = 8;
 
+/// The share of z by which nothing shades itself: half a pixel of the torch's picture, the depth of a surface that bends within a
+/// pixel.
+[[nodiscard]] double slack_of(const scene::TorchLight& light);
 void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
                const GpuStore& store);
 /// Of a face and how its places are found by nearness.

@@ -91,6 +91,10 @@ void ShadowMap::place_corners(const View& view, std::span<const glm::vec3> posit
 void ShadowMap::draw(const View& view, std::span<const glm::vec3> positions,
                      std::span<const std::uint32_t> indices) {
     place_corners(view, positions);
+    // A front turns anticlockwise, unless the view mirrors.
+    const bool mirrored = glm::determinant(glm::dmat3(view.picture_from_model)) < 0.0;
+    clockwise_nearer_ = mirrored ? 0.0 : view.inside_nearer;
+    others_nearer_ = mirrored ? view.inside_nearer : 0.0;
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
         const Corner& a = corners_[indices[k]];
         const Corner& b = corners_[indices[k + 1]];
@@ -117,7 +121,7 @@ void ShadowMap::find_farthest_of_four() {
     }
 }
 
-void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c) {
+void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c, bool clockwise) {
     const std::int64_t ab_x = std::int64_t{b.x} - a.x;
     const std::int64_t ab_y = std::int64_t{b.y} - a.y;
     const std::int64_t ac_x = std::int64_t{c.x} - a.x;
@@ -127,7 +131,7 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c)
         return;
     }
     if (area < 0) {
-        draw_triangle(a, c, b);
+        draw_triangle(a, c, b, false);
         return;
     }
     // A middle on the right or lower border of the corners' box belongs to a neighbour.
@@ -141,16 +145,17 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c)
     Edge bc(b.x, b.y, c.x, c.y, x0, y0);
     Edge ca(c.x, c.y, a.x, a.y, x0, y0);
     // The plane through the corners; rounding must not take a steep triangle's pixel beyond them.
-    const float low = std::min({a.nearness, b.nearness, c.nearness});
-    const float high = std::max({a.nearness, b.nearness, c.nearness});
+    const double nearer = 1.0 + (clockwise ? clockwise_nearer_ : others_nearer_);
+    const double near_a = nearer * static_cast<double>(a.nearness);
+    const double rise_b = nearer * static_cast<double>(b.nearness) - near_a;
+    const double rise_c = nearer * static_cast<double>(c.nearness) - near_a;
+    const auto low = static_cast<float>(near_a + std::min({0.0, rise_b, rise_c}));
+    const auto high = static_cast<float>(near_a + std::max({0.0, rise_b, rise_c}));
     const double per_area = parts_of_pixel / static_cast<double>(area);
-    const double rise_b = static_cast<double>(b.nearness) - static_cast<double>(a.nearness);
-    const double rise_c = static_cast<double>(c.nearness) - static_cast<double>(a.nearness);
     const double per_x = per_area * (rise_b * static_cast<double>(ac_y) - rise_c * static_cast<double>(ab_y));
     const double per_y = per_area * (rise_c * static_cast<double>(ab_x) - rise_b * static_cast<double>(ac_x));
-    double at =
-        static_cast<double>(a.nearness) +
-        (per_x * static_cast<double>(x0 - a.x) + per_y * static_cast<double>(y0 - a.y)) / parts_of_pixel;
+    double at = near_a + (per_x * static_cast<double>(x0 - a.x) + per_y * static_cast<double>(y0 - a.y)) /
+                             parts_of_pixel;
     float* row = nearness_.data() + static_cast<std::ptrdiff_t>(top) * width_ + left;
     for (int y = top; y <= bottom; ++y, row += width_, at += per_y) {
         int first = 0;

@@ -29,6 +29,9 @@ public:
         /// (x z, y z, z) of a place of the model: x and y in the picture, z in metres.
         glm::dmat4x3 picture_from_model{1.0};
         double metres = 1.0; ///< the nearness is this over z
+        /// Triangles that are turned away are drawn nearer by this share: seen from within an object, its surface lies in its own
+        /// shadow. 0 where nothing is seen from within.
+        double inside_nearer = 0.0;
     };
     /// `indices`: three for each triangle, which has two sides.
     void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
@@ -52,12 +55,14 @@ private:
     };
     [[nodiscard]] Corner corner_at(const glm::dvec3& place, double metres) const;
     void place_corners(const View& view, std::span<const glm::vec3> positions);
-    void draw_triangle(const Corner& a, const Corner& b, const Corner& c);
+    /// `clockwise`: as the picture is seen.
+    void draw_triangle(const Corner& a, const Corner& b, const Corner& c, bool clockwise = true);
     void draw_cut(const View& view, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
     int width_ = 0, height_ = 0;
     std::vector<float> nearness_;
     std::vector<Corner> corners_;
+    double clockwise_nearer_ = 0.0, others_nearer_ = 0.0; ///< shares, of the view that is drawn
 };
 
 } // namespace frustumscreen::torch

@@ -213,12 +213,15 @@ TEST(Torch, ThatLightsNothingChangesNoByte) {
     }
 }
 
-/// In the plate, in the ball, in the post: at most what is in the beam is lit.
+/// In the plate, in the ball, in the post: at most what is in the beam is lit, and through the walls of a mesh nothing is.
 TEST(Torch, InsideAnObjectLightsNothingBesideItsBeam) {
     for (const Way way : ways) {
         Still still(way);
         const image::Image8 without = still.lit_by({});
+        const glm::dvec3 eye = still.table.table_from_prop.inverse().point(still.table.eye_m);
         std::size_t unchanged = 0;
+        std::size_t changed = 0;
+        std::size_t through_walls = 0;
         for (std::size_t part = 0; part < 3; ++part) {
             const scene::PlacedLevel& level = still.world.parts[part].level;
             const geometry::Box placed = level.placed_box();
@@ -237,17 +240,26 @@ TEST(Torch, InsideAnObjectLightsNothingBesideItsBeam) {
                             continue;
                         }
                         bool may_be_lit = false;
+                        bool is_lit = false;
                         for (int k = 0; k < 9; ++k) {
                             const SeenPart place =
                                 still.world.seen(still.table, pixel + glm::dvec2(k % 3 - 1, k / 3 - 1));
                             may_be_lit = may_be_lit || (place.part >= 0 && truth.in_beam(place.point));
+                            is_lit = is_lit || (place.part >= 0 && truth.lights(place, eye));
                         }
+                        ++changed;
+                        through_walls += is_lit ? 0U : 1U;
                         EXPECT_TRUE(may_be_lit) << x << ' ' << y << ' ' << static_cast<int>(way);
                     }
                 }
             }
         }
         EXPECT_GT(unchanged, 300'000U);
+        std::printf("%d: %zu lit, %zu of them through walls\n", static_cast<int>(way), changed,
+                    through_walls);
+        if (way == Way::Mesh) {
+            EXPECT_LE(through_walls, 10U) << "of " << unchanged + changed;
+        }
     }
 }
 

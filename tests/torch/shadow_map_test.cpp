@@ -152,6 +152,36 @@ TEST(ShadowMap, HasNoGapsBetweenTriangles) {
     }
 }
 
+/// A sheet is nearer from behind, where it is the far side of a wall, also in a view that mirrors.
+TEST(ShadowMap, DrawsNearerWhatIsSeenFromWithin) {
+    Mesh front;
+    front.add({-1.0F, -1.0F, 1.0F}, {0.0F, 1.0F, 1.0F}, {1.0F, -1.0F, 1.0F}); // its normal is (0, 0, -1)
+    Mesh back = front;
+    std::swap(back.indices[1], back.indices[2]);
+    for (const double sign : {1.0, -1.0}) {
+        ShadowMap::View view = straight();
+        view.picture_from_model[0] *= sign;
+        view.inside_nearer = 0.25;
+        EXPECT_NEAR(at(map_of(front, view), 32, 32), 1.0, 1e-6);
+        EXPECT_NEAR(at(map_of(back, view), 32, 32), 1.25, 1e-6);
+    }
+}
+
+TEST(ShadowMap, HasTheFarthestOfFour) {
+    Mesh mesh;
+    mesh.add({-0.2F, -0.3F, 0.8F}, {0.3F, -0.1F, 1.1F}, {0.0F, 0.4F, 0.9F});
+    const ShadowMap own = map_of(mesh);
+    ShadowMap farthest = own;
+    farthest.find_farthest_of_four();
+    for (int y = 0; y + 1 < side_px; ++y) {
+        for (int x = 0; x + 1 < side_px; ++x) {
+            const double expected =
+                std::min({at(own, x, y), at(own, x + 1, y), at(own, x, y + 1), at(own, x + 1, y + 1)});
+            EXPECT_EQ(at(farthest, x, y), expected);
+        }
+    }
+}
+
 TEST(ShadowMap, LeavesOutWhatIsNotFinite) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinite = std::numeric_limits<float>::infinity();
