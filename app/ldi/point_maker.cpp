@@ -5,6 +5,25 @@
 
 namespace frustumscreen::ldi {
 
+namespace {
+
+/// The patch's own cameras, then all of its neighbours': with those of the report alone (Hemisphere::cameras_of), an eye near a
+/// border may look past an edge at a place that none of them sees.
+std::vector<std::size_t> cameras_for(const Hemisphere& hemisphere, std::size_t patch) {
+    std::vector<std::size_t> cameras;
+    const auto add = [&](std::size_t of) {
+        const auto own = hemisphere.own_cameras_of(of);
+        cameras.insert(cameras.end(), own.begin(), own.end());
+    };
+    add(patch);
+    for (const std::size_t neighbour : hemisphere.neighbours_of(patch)) {
+        add(neighbour);
+    }
+    return cameras;
+}
+
+} // namespace
+
 PointMaker::PointMaker(std::vector<TriangleWorld> worlds, const Hemisphere& hemisphere,
                        const CameraView& view, std::uint64_t max_bytes, std::uint64_t first_number)
     : worlds_(std::move(worlds)), order_(hemisphere), view_(view), max_bytes_(max_bytes),
@@ -42,7 +61,7 @@ void PointMaker::end_world() {
 
 bool PointMaker::draw_part(std::size_t triangles) {
     if (!drawing_) {
-        const auto cameras = order_.hemisphere().cameras_of(*building_);
+        const std::vector<std::size_t> cameras = cameras_for(order_.hemisphere(), *building_);
         const auto next = std::find_if(cameras.begin(), cameras.end(),
                                        [&](std::size_t camera) { return pictures_[camera] == nullptr; });
         if (next == cameras.end()) {
@@ -70,7 +89,7 @@ bool PointMaker::draw_part(std::size_t triangles) {
 void PointMaker::begin_merging() {
     const Hemisphere& hemisphere = order_.hemisphere();
     std::vector<const DepthPicture*> seeing;
-    for (const std::size_t camera : hemisphere.cameras_of(*building_)) {
+    for (const std::size_t camera : cameras_for(hemisphere, *building_)) {
         seeing.push_back(pictures_[camera].get());
     }
     const ImagePlane plane = hemisphere.image_plane_of(*building_);
@@ -95,7 +114,7 @@ void PointMaker::finish() {
     building_.reset();
     std::array<bool, camera_count> needed{};
     for (std::size_t other = 0; other < patch_count; ++other) {
-        for (const std::size_t camera : order_.hemisphere().cameras_of(other)) {
+        for (const std::size_t camera : cameras_for(order_.hemisphere(), other)) {
             needed[camera] = needed[camera] || (patches_[other] == nullptr && !is_full_);
         }
     }
@@ -119,7 +138,7 @@ bool PointMaker::step(std::size_t triangles) {
         }
         return true;
     }
-    const auto cameras = order_.hemisphere().cameras_of(*building_);
+    const std::vector<std::size_t> cameras = cameras_for(order_.hemisphere(), *building_);
     if (merged_ < cameras.size()) {
         merger_->add(*pictures_[cameras[merged_++]]);
         return true;
@@ -135,8 +154,9 @@ std::size_t PointMaker::made_count() const {
 std::uint64_t PointMaker::bytes() const {
     std::uint64_t bytes = rasterizer_.bytes() + (merger_ ? merger_->bytes() : 0);
     const auto add = [&bytes](const std::unique_ptr<DepthPicture>& picture) {
-        bytes += picture ? picture->nearness.size() * sizeof(float) + picture->colours.size() * sizeof(glm::u8vec4)
-                         : 0;
+        bytes +=
+            picture ? picture->nearness.size() * sizeof(float) + picture->colours.size() * sizeof(glm::u8vec4)
+                    : 0;
     };
     add(drawing_);
     std::for_each(pictures_.begin(), pictures_.end(), add);

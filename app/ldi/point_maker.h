@@ -61,11 +61,12 @@ private:
     CameraView view_;
     std::uint64_t max_bytes_, first_number_;
     TriangleRasterizer rasterizer_;
-    std::array<std::unique_ptr<DepthPicture>, camera_count> pictures_; ///< null: not drawn, or not needed any more
-    std::unique_ptr<DepthPicture> drawing_;                            ///< the picture that is being drawn
-    std::size_t camera_ = 0;                                           ///< its camera
-    std::size_t world_ = 0, next_triangle_ = 0;                        ///< of it
-    std::optional<std::size_t> building_;                              ///< the patch that is being made
+    std::array<std::unique_ptr<DepthPicture>, camera_count>
+        pictures_;                              ///< null: not drawn, or not needed any more
+    std::unique_ptr<DepthPicture> drawing_;     ///< the picture that is being drawn
+    std::size_t camera_ = 0;                    ///< its camera
+    std::size_t world_ = 0, next_triangle_ = 0; ///< of it
+    std::optional<std::size_t> building_;       ///< the patch that is being made
     std::optional<LayerMerger> merger_;
     std::size_t merged_ = 0; ///< pictures
     std::array<std::shared_ptr<const PointPatch>, patch_count> patches_;

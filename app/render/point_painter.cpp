@@ -52,8 +52,8 @@ PixelRectangle PointPainter::paint(const scene::ReliefDraw& drawn,
         return {};
     }
     const int side = drawn.samples > 1 ? 2 : 1;
-    const std::span<const std::uint64_t> samples =
-        splatter_.draw(*drawn.points, sample_from_window(drawn, face, side), side * lit.width, side * lit.height);
+    const std::span<const std::uint64_t> samples = splatter_.draw(
+        *drawn.points, sample_from_window(drawn, face, side), side * lit.width, side * lit.height);
     const auto width = static_cast<std::size_t>(lit.width);
     const std::size_t of_row = width * static_cast<std::size_t>(side * side);
     for (int y = 0; y < lit.height; ++y) {

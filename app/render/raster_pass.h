@@ -93,7 +93,7 @@ private:
     void add_painted(const scene::FramePlan& plan, const PixelRectangle& part, Rectangles rectangles);
 
     std::unique_ptr<relief::ReliefPainter> painter_; ///< null: no picture was prepared
-    std::unique_ptr<PointPainter> points_; ///< null: no points were painted
+    std::unique_ptr<PointPainter> points_;           ///< null: no points were painted
     scene::RasterLight light_;
     image::Image8 memory_;         ///< main memory that the reliefs are rasterized in
     image::Image<float> nearness_; ///< as large if there is depth, otherwise empty

@@ -241,7 +241,8 @@ std::uint32_t plan_parts(std::span<const Part> parts, const Shared& shared, Fram
     }
     std::uint32_t open = 0;
     for (const Part& part : parts) {
-        if (part.level.is_empty() || (takes_relief_draw(part.level) && !plan_relief_draw(part, shared, plan))) {
+        if (part.level.is_empty() ||
+            (takes_relief_draw(part.level) && !plan_relief_draw(part, shared, plan))) {
             continue;
         }
         for (std::size_t face = 0; face < faces; ++face) {
@@ -287,8 +288,9 @@ double pixel_density(const Shared& shared, const FramePlan& plan) {
 
 /// Samples of the first part that the GPU draws; 1 if every part is rasterized on the processor.
 int samples_on_gpu(std::span<const Part> parts) {
-    const auto drawn = std::find_if(parts.begin(), parts.end(),
-                                    [](const Part& part) { return !takes_relief_draw(part.level) || part.level.on_gpu; });
+    const auto drawn = std::find_if(parts.begin(), parts.end(), [](const Part& part) {
+        return !takes_relief_draw(part.level) || part.level.on_gpu;
+    });
     return drawn != parts.end() ? drawn->level.samples : (parts.empty() ? 0 : 1);
 }
 

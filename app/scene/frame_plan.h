@@ -171,10 +171,10 @@ struct ReliefDraw {
     bool on_gpu = false;
     relief::RasterView view;
     glm::dmat4 prop_from_box{1.0};
-    glm::vec3 light{1.0F};        ///< PlacedLevel::light
-    std::optional<Dither> dither; ///< Part::dither
-    int samples = 1;              ///< a pixel
-    bool even_light = false;      ///< evens out the projector's light
+    glm::vec3 light{1.0F};                   ///< PlacedLevel::light
+    std::optional<Dither> dither;            ///< Part::dither
+    int samples = 1;                         ///< a pixel
+    bool even_light = false;                 ///< evens out the projector's light
     const ldi::PointPatch* points = nullptr; ///< PlacedLevel::points, in place of the relief
 };
 

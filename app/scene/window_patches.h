@@ -19,8 +19,8 @@ namespace frustumscreen::scene {
 
 struct WindowPatches {
     ldi::Hemisphere hemisphere;
-    geometry::Box box; ///< around the world
-    int samples = 1;   ///< a pixel
+    geometry::Box box;                                              ///< around the world
+    int samples = 1;                                                ///< a pixel
     std::array<const ldi::PointPatch*, ldi::patch_count> patches{}; ///< null: not made
 };
 

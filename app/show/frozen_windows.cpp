@@ -26,26 +26,28 @@ struct ToRead {
     double samples_per_m = 1.0;
 };
 
+/// Without triangles if the pack is another one by now.
 Result<FrozenWorld> read_world(const ToRead& from) {
+    bool is_same = false;
     TRY(const pack::VerifiedPack pack,
         pack::load_pack(from.file,
                         [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-                            if (outline != from.outline) {
-                                return bad_input("show.window_pack_changed",
-                                                 "the pack has changed since its window was frozen");
-                            }
-                            return std::vector<std::uint32_t>{from.level};
+                            is_same = outline == from.outline;
+                            return is_same ? std::vector{from.level} : std::vector<std::uint32_t>();
                         }));
-    const scene::SceneLevel level = scene::whole_level(*pack, from.level);
     FrozenWorld world;
-    add_level(level, pack->textures[level.mesh.texture], pack->box_size, from.window_from_box, from.samples_per_m,
-              world);
+    if (is_same) {
+        const scene::SceneLevel level = scene::whole_level(*pack, from.level);
+        add_level(level, pack->textures[level.mesh.texture], pack->box_size, from.window_from_box,
+                  from.samples_per_m, world);
+    }
     return world;
 }
 
 } // namespace
 
-bool patches_are_quicker(const scene::FrameCost& cost, const scene::PlacedLevel& part, const PatchView& view) {
+bool patches_are_quicker(const scene::FrameCost& cost, const scene::PlacedLevel& part,
+                         const PatchView& view) {
     const double side = view.samples > 1 ? 2.0 : 1.0;
     const double samples = static_cast<double>(view.cameras.width) * view.cameras.height;
     const scene::QualityLevelCost& own = part.relief ? (part.on_gpu ? cost.on_gpu : cost.raster) : cost.mesh;
@@ -61,8 +63,9 @@ std::uint32_t level_for(const pack::PackOutline& outline, const scene::ScenePlan
     if (!shown.relief) {
         return shown.level;
     }
-    const auto relief = std::find_if(plan.reliefs.begin(), plan.reliefs.end(),
-                                     [&](const pack::ReliefOutline& each) { return each.texels == shown.level; });
+    const auto relief =
+        std::find_if(plan.reliefs.begin(), plan.reliefs.end(),
+                     [&](const pack::ReliefOutline& each) { return each.texels == shown.level; });
     std::uint32_t level = 0;
     while (level + 1 < outline.levels.size() &&
            (relief == plan.reliefs.end() || outline.levels[level].error.mean_box > relief->error.mean_box)) {
@@ -103,9 +106,8 @@ void FrozenWindows::freeze(const FrozenWindow& window) {
 
 void FrozenWindows::begin(std::uint32_t number, PatchJobSetUp set_up) {
     set_up.number = ++last_number_;
-    windows_.push_back({.number = number,
-                        .job = std::make_shared<PatchJob>(std::move(set_up)),
-                        .patch = std::nullopt});
+    windows_.push_back(
+        {.number = number, .job = std::make_shared<PatchJob>(std::move(set_up)), .patch = std::nullopt});
     is_new_ = true;
 }
 

@@ -26,8 +26,8 @@ void add_level(const scene::SceneLevel& level, const image::Image8& texture, con
         added.texture_places.emplace_back(vertex.uv[0] / codes, vertex.uv[1] / codes);
     }
     const double m_per_box = glm::length(glm::dvec3(window_from_box[0]));
-    const int mip =
-        std::min(scene::mip_level(level.texels_per_box, samples_per_m * m_per_box), scene::coarsest_mip_level);
+    const int mip = std::min(scene::mip_level(level.texels_per_box, samples_per_m * m_per_box),
+                             scene::coarsest_mip_level);
     image::Image8 taken = texture;
     for (int k = 0; k < mip; ++k) {
         taken = image::half_size(taken);

@@ -193,8 +193,8 @@ std::unique_ptr<PatchJob> OfflineRenderer::patches_of(const Window& window, cons
         FrozenWorld world;
         for (std::size_t k = 0; k < kept_.size(); ++k) {
             const scene::PlacedLevel& level = window.parts[k].level;
-            add_level(kept_[k].level, kept_[k].texture, level.box_size, level.prop_from_box(), view.samples_per_m,
-                      world);
+            add_level(kept_[k].level, kept_[k].texture, level.box_size, level.prop_from_box(),
+                      view.samples_per_m, world);
         }
         return world;
     };

@@ -38,7 +38,8 @@ struct OfflineOptions {
     std::string torch =
         {}; ///< content that torches throw: torch::white_name, or one of the pack's; empty: there are none
     std::size_t windows = 0; ///< that may be pinned, up to scene::max_windows
-    bool window_patches = false; ///< draws windows by their points wherever an eye has some (scene/window_patches.h)
+    bool window_patches =
+        false; ///< draws windows by their points wherever an eye has some (scene/window_patches.h)
 };
 
 struct OfflineSetup {

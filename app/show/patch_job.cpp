@@ -6,8 +6,9 @@
 namespace frustumscreen::show {
 
 PatchJob::PatchJob(PatchJobSetUp set_up)
-    : set_up_(std::move(set_up)),
-      patches_{.hemisphere = ldi::Hemisphere(set_up_.radius_m), .box = {}, .samples = set_up_.samples} {}
+    : set_up_(std::move(set_up)), patches_{.hemisphere = ldi::Hemisphere(set_up_.radius_m),
+                                           .box = {},
+                                           .samples = set_up_.samples} {}
 
 void PatchJob::look_from(const glm::dvec3& eye) {
     if (const std::optional<std::size_t> patch = patches_.hemisphere.patch_of(eye)) {
@@ -25,8 +26,7 @@ void PatchJob::update() {
 }
 
 bool PatchJob::has_first() const {
-    return is_done() ||
-           is_made_[looked_at_.load(std::memory_order_relaxed)].load(std::memory_order_acquire);
+    return is_done() || is_made_[looked_at_.load(std::memory_order_relaxed)].load(std::memory_order_acquire);
 }
 
 void PatchJob::begin() {

@@ -24,10 +24,10 @@ namespace frustumscreen::show {
 
 struct PatchJobSetUp {
     std::function<Result<FrozenWorld>()> make_world; ///< slow; called on the thread that makes
-    double radius_m = 1.0;                           ///< of the eye from the window's middle, when it was frozen
-    ldi::CameraView view;                            ///< its pixels are the samples of the window's picture
-    int samples = 1;                                 ///< a pixel
-    std::uint64_t number = 0;                        ///< that no other job has had
+    double radius_m = 1.0;    ///< of the eye from the window's middle, when it was frozen
+    ldi::CameraView view;     ///< its pixels are the samples of the window's picture
+    int samples = 1;          ///< a pixel
+    std::uint64_t number = 0; ///< that no other job has had
     std::uint64_t max_bytes = std::uint64_t{32} << 20U;
 };
 

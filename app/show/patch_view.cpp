@@ -16,8 +16,8 @@ constexpr int max_side = 1024; ///< samples across a window
 PatchView patch_view(const PatchViewRequest& request) {
     const geometry::RigidTransform& from_window = request.view.table_from_window;
     const glm::dvec2 half_m(request.view.surface.faces.front().corners[2]);
-    const double pixel_m =
-        glm::distance(request.table_from_projector.translation, from_window.translation) / request.projector.fx;
+    const double pixel_m = glm::distance(request.table_from_projector.translation, from_window.translation) /
+                           request.projector.fx;
     PatchView view;
     view.samples = request.samples > 1 ? 4 : 1;
     const double sample_m = pixel_m / (view.samples > 1 ? 2.0 : 1.0);

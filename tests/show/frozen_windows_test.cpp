@@ -16,7 +16,8 @@ using std::chrono::milliseconds;
 FrozenWorld a_wall() {
     FrozenWorld world;
     ldi::TriangleWorld& wall = world.worlds.emplace_back();
-    wall.positions = {{-0.3F, -0.3F, -0.05F}, {0.3F, -0.3F, -0.05F}, {0.3F, 0.3F, -0.05F}, {-0.3F, 0.3F, -0.05F}};
+    wall.positions = {
+        {-0.3F, -0.3F, -0.05F}, {0.3F, -0.3F, -0.05F}, {0.3F, 0.3F, -0.05F}, {-0.3F, 0.3F, -0.05F}};
     wall.indices = {0, 1, 2, 0, 2, 3};
     wall.colours.assign(4, glm::u8vec4(200, 100, 50, 255));
     world.box = {{-0.3, -0.3, -0.05}, {0.3, 0.3, -0.05}};

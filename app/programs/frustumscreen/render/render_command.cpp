@@ -94,9 +94,10 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         .check(is_pin())
         .allow_extra_args(false)
         .type_name("X,Y[,YAW_DEG]");
-    app.add_option("--windows", request.windows,
-                   "what draws windows: geometry, the artifact's level or relief; or patches, points made of it "
-                   "beforehand for the eyes above the window")
+    app.add_option(
+           "--windows", request.windows,
+           "what draws windows: geometry, the artifact's level or relief; or patches, points made of it "
+           "beforehand for the eyes above the window")
         .one_of({"geometry", "patches"})
         .capture_default_str();
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
