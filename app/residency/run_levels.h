@@ -134,6 +134,8 @@ public:
     [[nodiscard]] std::span<scene::FramePlan> plans() { return plans_; }
     /// The level that `draw` draws, without its fade.
     [[nodiscard]] scene::PlacedLevel shown() const { return placed(shown_); }
+    /// A mesh about as exact as what `draw` draws, in a layer's colours. None: there is no mesh, or the layer is not there.
+    [[nodiscard]] std::optional<scene::PlacedLevel> in_layer(std::size_t layer) const;
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 
