@@ -26,6 +26,11 @@ template <typename Obstacles, typename From> void add_places(Obstacles& obstacle
     }
 }
 
+/// Also one without captions; null: there is no such artifact.
+const CatalogueEntry* find(const Catalogue& catalogue, std::size_t artifact) {
+    return artifact < catalogue.size() ? &catalogue[artifact] : nullptr;
+}
+
 /// As large as every title of an artifact's states in every language.
 glm::dvec2 room_for(const std::vector<std::vector<glm::dvec2>>& sizes_m) {
     glm::dvec2 room(0.0);
@@ -76,7 +81,7 @@ void Exhibit::step_windows(MonotonicTime now, const tracking::TrackedState& trac
     const SentenceEnvironment around =
         environment_of(place_, drawn, tracked_state.eye_m, side_.quarter_turns());
     const ViewToPin seen{std::nullopt, tracked_state.eye_m, drawn.table_from_prop};
-    const CatalogueEntry* const entry = catalogue_.captioned(shown.artifact);
+    const CatalogueEntry* const entry = find(catalogue_.all(), shown.artifact);
     const std::size_t states = entry != nullptr ? entry->state_title_sizes_m.size() : 0;
     WindowDesk::Input input{
         .artifact = shown.artifact,
@@ -131,7 +136,8 @@ void Exhibit::place_titles(std::string_view language, PresentedWindows& windows)
         if (!window.state || window.title.size_m.y <= 0.0) {
             continue;
         }
-        const CatalogueEntry* const entry = catalogue_.captioned(window.artifact);
+        const CatalogueEntry* const entry =
+            catalogue_.captioned(window.artifact); // titles are in its languages
         window.language = entry != nullptr ? caption_for(language, entry->languages) : 0;
         const bool has_title = entry != nullptr && *window.state < entry->state_title_sizes_m.size() &&
                                window.language < entry->state_title_sizes_m[*window.state].size();
