@@ -39,6 +39,9 @@ struct CatalogueEntry {
     /// What a torch can throw onto it, in the pack's order: the size of each title, by `languages`; the height is 0 if there
     /// is none.
     std::vector<std::vector<glm::dvec2>> content_title_sizes_m{};
+    /// Its states, which windows show, in the pack's order: the size of each title, by `languages`; the height is 0 if there is
+    /// none.
+    std::vector<std::vector<glm::dvec2>> state_title_sizes_m{};
     /// The corners of the hull of the artifact in the prop (pack/pack_hull.h), prop frame; empty: unknown, and every
     /// face in view counts.
     std::vector<glm::dvec3> hull{};

@@ -63,6 +63,8 @@ void Exhibit::take(settings::Command command, MonotonicTime now) {
     if (settings::is_hold(command)) {
         if (state_ == State::Staff) {
             staff_.hold(command == settings::Command::HoldFirst, now);
+        } else if (command == settings::Command::HoldWindow) {
+            presses_.hold_window();
         }
         return;
     }
@@ -84,6 +86,7 @@ void Exhibit::take_chord(MonotonicTime now) {
             selection_.undo(settings::button_commands[button], now);
             if (windows_ && settings::button_commands[button] == settings::Command::Window) {
                 windows_->undo_pin();
+                history_.forget();
             }
         }
     }

@@ -190,7 +190,9 @@ private:
                       const DrawnPose& drawn, Presentation& presentation);
     /// The places that captions and signs avoid: pictures to choose from, and windows.
     [[nodiscard]] Obstacles lying_on_table() const;
-    /// The line that says once in a visit what the button does; none: nothing.
+    /// Places the titles of states in the visitor's language.
+    void place_titles(std::string_view language, PresentedWindows& windows) const;
+    /// The lines that say, once in a visit each, what the button does and what happens while it is held; none: nothing.
     [[nodiscard]] std::optional<WordIndex> window_word() const;
 
     // Behaviours: exhibit_behaves.cpp.
@@ -236,10 +238,13 @@ private:
     std::optional<TorchAim> torch_says_;               ///< what is wrong with the torch's aim
     bool next_content_ = false, leaves_light_ = false; ///< pressed in this step
 
-    std::optional<WindowDesk> windows_;        ///< none: none can be pinned
+    std::optional<WindowDesk> windows_; ///< none: none can be pinned
+    WindowHistory history_;
     std::optional<MonotonicTime> visit_began_; ///< of the visitor who is there
     bool has_pinned_ = false;                  ///< in this visit
-    bool invites_to_pin_ = false;
+    std::optional<MonotonicTime> first_pin_;   ///< of the visit
+    bool has_turned_ = false;                  ///< through the lens, in this visit
+    bool invites_to_pin_ = false, invites_to_turn_ = false;
 };
 
 } // namespace frustumscreen::exhibit

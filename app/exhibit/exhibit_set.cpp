@@ -63,6 +63,7 @@ Catalogue Exhibit::show_set(Catalogue catalogue, std::optional<TableBrowser> tab
     }
     if (windows_) {
         windows_.emplace(*place_.windows, place_.picture_m);
+        history_.forget();
     }
     selection_ = make_selection(catalogue_.all(), first_language_, now);
     const std::vector<std::string> languages = languages_of(catalogue_.all());

@@ -16,6 +16,7 @@ public:
     /// `counts`: the press is the visitor's. `command` is one of `button_commands`.
     void take(settings::Command command, bool counts) {
         at(command) = counts;
+        any_ = true;
         choose_ = choose_ || (counts && command == settings::Command::Choose);
         help_ = help_ || (counts && command == settings::Command::Help);
         behaviour_ = behaviour_ || (counts && command == settings::Command::Behaviour);
@@ -37,6 +38,11 @@ public:
     [[nodiscard]] bool take_behaviour() { return std::exchange(behaviour_, false); }
     /// True if a window is to be pinned; the next call returns false.
     [[nodiscard]] bool take_window() { return std::exchange(window_, false); }
+    void hold_window() { window_held_ = true; }
+    /// True if the button for windows is held since this step; the next call returns false.
+    [[nodiscard]] bool take_window_hold() { return std::exchange(window_held_, false); }
+    /// True if something was pressed; the next call returns false.
+    [[nodiscard]] bool take_any() { return std::exchange(any_, false); }
 
 private:
     [[nodiscard]] bool& at(settings::Command command) {
@@ -48,7 +54,7 @@ private:
     bool choose_ = false;
     bool help_ = false;
     bool behaviour_ = false;
-    bool window_ = false;
+    bool window_ = false, window_held_ = false, any_ = false;
 };
 
 } // namespace frustumscreen::exhibit

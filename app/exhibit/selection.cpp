@@ -112,6 +112,7 @@ void Selection::undo(settings::Command command, MonotonicTime now) {
     case settings::Command::StaffMode:
     case settings::Command::HoldFirst:
     case settings::Command::HoldOther:
+    case settings::Command::HoldWindow:
         break;
     }
 }
@@ -130,6 +131,7 @@ bool Selection::accepts(settings::Command command) const {
     case settings::Command::StaffMode:
     case settings::Command::HoldFirst:
     case settings::Command::HoldOther:
+    case settings::Command::HoldWindow:
         break;
     }
     return false;

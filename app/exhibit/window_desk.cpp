@@ -97,13 +97,17 @@ bool WindowDesk::accepts(const Input& input) const {
 void WindowDesk::pin(MonotonicTime now, const Input& input) {
     Window& window = windows_.at(count_++);
     window = {};
+    const ViewToPin view = input.view.value_or(ViewToPin{std::nullopt, input.eye_m, input.table_from_prop});
     window.pinned = {.number = ++numbers_,
                      .artifact = input.artifact,
                      .comings = 0,
                      .rectangle = {{}, place_.size_m, input.quarter_turns},
-                     .eye_m = input.eye_m,
-                     .table_from_prop = input.table_from_prop,
+                     .eye_m = view.eye_m,
+                     .table_from_prop = view.table_from_prop,
+                     .state = view.state,
+                     .live = place_.live && !view.state,
                      .brightness = 0.0};
+    window.title_m = input.title_m;
     window.looks_since = window.next_look = now;
     const auto staying =
         std::count_if(all().begin(), all().end(), [](const Window& one) { return !one.goes; });
@@ -116,7 +120,7 @@ void WindowDesk::push(const Input& input) {
     for (Window& window : all()) {
         window.pushed = false;
     }
-    if (!input.stands || !input.shadow) {
+    if (!input.stands || !input.shadow || lens_.on()) {
         return;
     }
     for (Window& window : all()) {
@@ -202,6 +206,10 @@ std::optional<typography::TableRectangle> WindowDesk::free_place(const Window& w
                                                                  const Input& input) const {
     for (const double share : size_shares) {
         typography::TableRectangle place{{}, share * place_.size_m, input.quarter_turns};
+        if (window.title_m.y > 0.0) {
+            place.size_m.x = std::max(place.size_m.x, window.title_m.x);
+            place.size_m.y += title_gap_m + window.title_m.y;
+        }
         const glm::dvec2 half = half_of(place);
         const glm::dvec2 first = low_m_ + border_m + half;
         const glm::dvec2 way = high_m_ - border_m - half - first;
@@ -317,36 +325,20 @@ void WindowDesk::fade(MonotonicTime now, double dt_s) {
     count_ = static_cast<std::size_t>(end - windows_.begin());
 }
 
-void WindowDesk::present() {
-    presented_ = {};
-    obstacle_count_ = 0;
-    changing_ = false;
-    for (Window& window : all()) {
-        const double light = 1.0 - (1.0 - under_sign) * geometry::ease(window.signed_share);
-        window.pinned.brightness =
-            window.lies ? light * std::min(geometry::ease(window.share), window.clear) : 0.0;
-        presented_.add(window.pinned);
-        if (window.lies) {
-            obstacles_.at(obstacle_count_++) = window.pinned.rectangle;
-        }
-        changing_ = changing_ || !window.lies || window.goes || window.moves || window.share < 1.0 ||
-                    (window.signed_share > 0.0 && window.signed_share < 1.0);
-    }
-}
-
 void WindowDesk::step(MonotonicTime now, const Input& input) {
     const double dt_s = last_ ? to_seconds(now - *last_) : 0.0;
     last_ = now;
     for (Window& window : all()) {
         window.goes = window.goes || input.gone;
     }
-    if (input.pin) {
-        const bool pins = accepts(input);
-        if (pins) {
-            pin(now, input);
-        }
-        by_press_ = pins ? numbers_ : 0;
+    has_pinned_ = input.pin && accepts(input);
+    if (has_pinned_) {
+        pin(now, input);
     }
+    if (input.pin) {
+        by_press_ = has_pinned_ ? numbers_ : 0;
+    }
+    look_through(now, input);
     push(input);
     cover(now, input, dt_s);
     fade(now, dt_s);

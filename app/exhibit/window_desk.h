@@ -10,6 +10,9 @@
 /// Cover   Anything that touches a window makes it dark; the window dims as it comes near. A window that stays covered for
 ///         `covered` fades out and fades in at a free place; if there is none, it is put away.
 /// Side    When the reader goes to another side of the table, windows turn to that side at new places, as captions do.
+/// State   A window of an artifact's state has room for its title below it, and so have the other windows of that artifact.
+/// Lens    While the button is held and after it, the newest window's content follows the prop (window_lens.h), which then
+///         pushes nothing.
 /// Rest    Windows go when nobody is there, and with their artifact.
 /// Frames  table T, metres.
 /// Time    `now` never goes back.
@@ -18,6 +21,8 @@
 #pragma once
 
 #include "app/exhibit/presented_windows.h"
+#include "app/exhibit/window_history.h"
+#include "app/exhibit/window_lens.h"
 #include "app/typography/captions.h"
 #include "firmware_host/base/time.h"
 
@@ -35,6 +40,7 @@ namespace frustumscreen::exhibit {
 struct WindowPlace {
     std::size_t count = 0; ///< up to settings::max_windows
     glm::dvec2 size_m{0.0};
+    bool live = false; ///< behaviours go on in windows
 };
 
 class WindowDesk {
@@ -44,6 +50,7 @@ public:
     static constexpr double under_sign = 0.12;           ///< its light there
     static constexpr Nanoseconds covered = std::chrono::seconds(1);
     static constexpr Nanoseconds gives_up = std::chrono::seconds(4); ///< to look for a place
+    static constexpr double title_gap_m = 0.003;                     ///< from a window to its title
     static constexpr double beside_m = 0.008;  ///< from captions, pictures and other windows
     static constexpr double pushed_m = 0.013;  ///< from the shadow of a prop that pushes
     static constexpr double max_push_m = 0.05; ///< in one step; more is a prop that was put down on it
@@ -56,6 +63,10 @@ public:
         bool shows = false;       ///< the prop shows the artifact, so that it can be pinned
         glm::dvec3 eye_m{0.0};
         geometry::RigidTransform table_from_prop;       ///< as drawn
+        std::optional<ViewToPin> view{};                ///< of a press; none: as the prop shows it now
+        glm::dvec2 title_m{0.0};                        ///< room for a title below a window of this artifact
+        bool hold = false;                              ///< the button is held: the lens begins
+        bool ends_lens = false;                         ///< another press, or the prop's pose is unknown
         std::optional<typography::TablePolygon> shadow; ///< hidden_by_prop from the lens
         std::optional<typography::TablePolygon> hidden; ///< hidden_by_prop from the eye
         std::optional<typography::TablePolygon> sign;   ///< advice as a picture; windows under it dim
@@ -74,6 +85,8 @@ public:
     [[nodiscard]] const PresentedWindows& presented() const { return presented_; }
     /// True if a press would pin something, as of the latest step.
     [[nodiscard]] bool can_pin() const { return can_pin_; }
+    /// True if the latest step pinned something.
+    [[nodiscard]] bool has_pinned() const { return has_pinned_; }
     /// The windows' places, which captions and signs avoid.
     [[nodiscard]] std::span<const typography::TableRectangle> obstacles() const {
         return std::span(obstacles_).first(obstacle_count_);
@@ -83,7 +96,8 @@ public:
 
 private:
     struct Window {
-        PresentedWindow pinned;
+        PresentedWindow pinned; ///< `rectangle` has room for the title
+        glm::dvec2 title_m{0.0};
         bool lies = false;      ///< it has a place
         bool is_new = true;     ///< it has had none yet
         bool displaces = false; ///< another one goes for it
@@ -107,6 +121,7 @@ private:
     void pin(MonotonicTime now, const Input& input);
     /// Makes the oldest go that is not `except`; false: all go already.
     bool let_oldest_go(std::uint32_t except);
+    void look_through(MonotonicTime now, const Input& input);
     void push(const Input& input);
     void push_each_other();
     void look_for_places(MonotonicTime now, const Input& input);
@@ -121,6 +136,8 @@ private:
     [[nodiscard]] double clear_share_of(const Window& window, const Input& input) const;
     void cover(MonotonicTime now, const Input& input, double dt_s);
     void fade(MonotonicTime now, double dt_s);
+    /// A window's place and its title's, both in the desk's place for it.
+    [[nodiscard]] PresentedWindow shown(const Window& window) const;
     void present();
 
     WindowPlace place_;
@@ -135,7 +152,9 @@ private:
     PresentedWindows presented_;
     std::array<typography::TableRectangle, settings::max_windows + 1> obstacles_{};
     std::size_t obstacle_count_ = 0;
-    bool can_pin_ = false, changing_ = false;
+    bool can_pin_ = false, changing_ = false, has_pinned_ = false;
+    WindowLens lens_;
+    std::uint32_t lens_window_ = 0; ///< number of the window that the lens is on
 };
 
 } // namespace frustumscreen::exhibit

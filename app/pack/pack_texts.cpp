@@ -192,6 +192,10 @@ std::string torch_key(std::size_t content) {
     return fmt::format("torch.{}", content);
 }
 
+std::string state_key(std::size_t state) {
+    return fmt::format("state.{}", state);
+}
+
 std::string behaviour_key(std::size_t behaviour) {
     return fmt::format("behaviour.{}", behaviour);
 }

@@ -29,6 +29,7 @@ namespace frustumscreen::pack {
 [[nodiscard]] std::string label_key(std::size_t hotspot);
 [[nodiscard]] std::string behaviour_key(std::size_t behaviour);
 [[nodiscard]] std::string torch_key(std::size_t content);
+[[nodiscard]] std::string state_key(std::size_t state);
 
 struct SetLanguage {
     std::string language; ///< BCP 47

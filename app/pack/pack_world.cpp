@@ -8,6 +8,7 @@
 #include "app/pack/pack_reader.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_sections.h"
+#include "app/pack/pack_states.h"
 #include "app/pack/pack_torches.h"
 #include "app/pack/world_sections.h"
 #include "firmware_host/base/printable.h"
@@ -25,7 +26,8 @@ namespace {
 
 constexpr std::string_view curves_name = "behaviours/curves.bin";
 /// Sections of the whole artifact, which a cell's own pack has not.
-constexpr std::array<std::string_view, 4> of_the_whole{cells_section, behaviours_section, "texts", "sounds"};
+constexpr std::array<std::string_view, 5> of_the_whole{cells_section, behaviours_section, states_section,
+                                                       "texts", "sounds"};
 
 std::size_t channels_of(const PackWorld& world) {
     std::size_t channels = 0;
@@ -110,9 +112,8 @@ Result<void> check_nested(const PackDescription& pack) {
     };
     if (!pack.captions.empty() || !pack.hotspots.empty() ||
         std::any_of(pack.sections.begin(), pack.sections.end(), is_of_the_whole)) {
-        return bad_input(
-            "world.nested",
-            "a cell's own pack has cells, behaviours, hotspots or texts; only the artifact's has these");
+        return bad_input("world.nested", "a cell's own pack has cells, behaviours, states, hotspots or "
+                                         "texts; only the artifact's has these");
     }
     TRY(const PackTorches torches, torches_of(pack));
     if (!torches.contents.empty()) {

@@ -73,10 +73,14 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
     TRY_VOID(pack);
     TRY(opened.world, open_world(settings, file, opened.outline.description, opened.plan,
                                  request_of(settings, options, opened.outline)));
+    if (settings.windows.exist()) {
+        TRY(opened.states, at(file.string(), pack::states_of(opened.outline.description)));
+    }
     TRY(opened.texts, lay_out_texts({.file = file,
                                      .pack = opened.outline.description,
                                      .captions = opened.plan.captions,
-                                     .contents = settings.torch.exists()},
+                                     .contents = settings.torch.exists(),
+                                     .states = settings.windows.exist()},
                                     opened.plan.metres_per_box, text_style(settings),
                                     settings.sound.kind != settings::SoundKind::None));
     TRY_VOID(find_whole_zone(settings, opened));

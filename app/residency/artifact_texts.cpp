@@ -1,6 +1,7 @@
 #include "app/residency/artifact_texts.h"
 
 #include "app/exhibit/languages.h"
+#include "app/pack/pack_states.h"
 #include "app/pack/pack_torches.h"
 #include "app/pack/pack_world.h"
 #include "app/pack/text_portions.h"
@@ -210,6 +211,18 @@ Result<std::vector<std::vector<glm::dvec2>>> lay_out_contents(const pack::PackDe
     return made;
 }
 
+Result<std::vector<std::vector<glm::dvec2>>> lay_out_states(const pack::PackDescription& pack,
+                                                            std::span<const std::string> languages,
+                                                            std::span<const pack::SetLanguage> set,
+                                                            const TextStyle& style) {
+    TRY(const std::vector<pack::PackState> states, pack::states_of(pack));
+    std::vector<std::vector<glm::dvec2>> made;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        made.push_back(label_sizes_m(pack::state_key(k), languages, set, style));
+    }
+    return made;
+}
+
 /// Sizes of the part's pictures in their order; 0 for a missing picture.
 std::vector<glm::ivec2> sizes_px(const exhibit::CatalogueEntry& entry, TextPart part, std::size_t language,
                                  const TextStyle& style) {
@@ -224,8 +237,10 @@ std::vector<glm::ivec2> sizes_px(const exhibit::CatalogueEntry& entry, TextPart 
         for (const exhibit::TriggeredBehaviour& behaviour : entry.behaviours) {
             add(std::span(&behaviour.title_sizes_m[language], 1));
         }
-        for (const std::vector<glm::dvec2>& content : entry.content_title_sizes_m) {
-            add(std::span(&content[language], 1));
+        for (const auto* const titles : {&entry.content_title_sizes_m, &entry.state_title_sizes_m}) {
+            for (const std::vector<glm::dvec2>& title : *titles) {
+                add(std::span(&title[language], 1));
+            }
         }
         return sizes;
     }
@@ -290,6 +305,9 @@ Result<void> draw(const pack::PackDescription& pack, const pack::PackCaption& ca
     for (std::size_t k = 0; is_caption && k < entry.content_title_sizes_m.size(); ++k) {
         drawing.add_label(caption.language, pack::torch_key(k));
     }
+    for (std::size_t k = 0; is_caption && k < entry.state_title_sizes_m.size(); ++k) {
+        drawing.add_label(caption.language, pack::state_key(k));
+    }
     for (std::size_t k = 0; !is_caption && k < pack.hotspots.size(); ++k) {
         drawing.add_label(caption.language, pack::label_key(k));
     }
@@ -323,6 +341,10 @@ Result<ArtifactTexts> lay_out_texts(const TextSource& source, double metres_per_
         TRY(made.entry.content_title_sizes_m,
             at(source.file.string(), lay_out_contents(source.pack, languages, set, style)));
     }
+    if (source.states) {
+        TRY(made.entry.state_title_sizes_m,
+            at(source.file.string(), lay_out_states(source.pack, languages, set, style)));
+    }
     return made;
 }
 
@@ -336,6 +358,11 @@ std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t lang
 
 std::size_t title_picture(const exhibit::CatalogueEntry& entry, std::size_t language, std::size_t behaviour) {
     return entry.caption_sizes_m[language].size() + behaviour;
+}
+
+std::size_t state_picture(const exhibit::CatalogueEntry& entry, std::size_t language, std::size_t state) {
+    return title_picture(entry, language,
+                         entry.behaviours.size() + entry.content_title_sizes_m.size() + state);
 }
 
 std::uint64_t text_bytes(const exhibit::CatalogueEntry& entry, TextPart part, std::size_t language,

@@ -29,6 +29,7 @@ struct TextSource {
     const pack::PackDescription& pack;
     std::span<const std::size_t> captions; ///< of the pack, one per language that is shown
     bool contents = false; ///< there are torches: the titles of what they throw are laid out too
+    bool states = false;   ///< there are windows: the titles of the states are laid out too
 };
 
 /// The layout of an artifact's texts.
@@ -46,13 +47,15 @@ enum class TextPart : std::uint8_t { Caption, NarrationSequencer };
 inline constexpr std::size_t text_parts = 2;
 
 /// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one, then the
-/// titles of behaviours and of what torches throw; of the narration, by portion and width, with the attribution as the last portion, then the
+/// titles of behaviours, of what torches throw and of states; of the narration, by portion and width, with the attribution as the last portion, then the
 /// hotspots' labels.
 [[nodiscard]] std::size_t portion_picture(std::size_t portion, std::size_t shape);
 [[nodiscard]] std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t language,
                                         std::size_t hotspot);
 [[nodiscard]] std::size_t title_picture(const exhibit::CatalogueEntry& entry, std::size_t language,
                                         std::size_t behaviour);
+[[nodiscard]] std::size_t state_picture(const exhibit::CatalogueEntry& entry, std::size_t language,
+                                        std::size_t state);
 /// GPU memory of a part's pictures.
 [[nodiscard]] std::uint64_t text_bytes(const exhibit::CatalogueEntry& entry, TextPart part,
                                        std::size_t language, const TextStyle& style);

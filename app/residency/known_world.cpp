@@ -1,6 +1,7 @@
 #include "app/residency/known_world.h"
 
 #include "app/pack/pack_relief.h"
+#include "app/pack/pack_states.h"
 #include "app/scene/cell_plan.h"
 
 #include <algorithm>
@@ -68,7 +69,11 @@ Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& s
                                                      const scene::SceneRequest& request) {
     TRY(pack::PackWorld outline, pack::world_outline_of(pack));
     outline.drawn_at_rest = outline.drawn_at_rest && request.technique == "auto";
-    if (outline.behaviours.empty() && !outline.drawn_at_rest) {
+    TRY(const std::vector<pack::PackState> states,
+        settings.windows.exist() ? pack::states_of(pack) : std::vector<pack::PackState>());
+    const bool hides = std::any_of(states.begin(), states.end(),
+                                   [](const pack::PackState& state) { return !state.hidden.empty(); });
+    if (outline.behaviours.empty() && !outline.drawn_at_rest && !hides) {
         return nullptr;
     }
     return open_cells(settings, file, std::move(outline), whole, request);

@@ -30,8 +30,8 @@ struct KnownWorld {
     std::vector<KnownCell> drawn;
 };
 
-/// Null: no cell is ever drawn, since the pack has no behaviours and its cells are not for rest, or a technique is asked for
-/// that is not `auto`. `whole`: the artifact's plan; `request`: the one that it was made for.
+/// Null: no cell is ever drawn, since the pack has no behaviours, its cells are not for rest or a technique is asked for that
+/// is not `auto`, and no window shows a state without some of them. `whole`: the artifact's plan; `request`: the one that it was made for.
 [[nodiscard]] Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& settings,
                                                                    const std::filesystem::path& file,
                                                                    const pack::PackDescription& pack,

@@ -115,6 +115,7 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
         TRY(const pack::PackWorld world, pack::load_world(known.file));
         TRY(cells, prepare_cells(known.file, *known.world, given_up));
         made.cells = std::make_unique<RunCells>(world, *known.world, plan, levels, cells, deadline_ms);
+        made.cells->add_states(world, known.states);
     }
     for (std::vector<PreparedLevel>* const prepared : {&levels, &cells.levels}) {
         for (PreparedLevel& level : *prepared) {

@@ -8,6 +8,7 @@
 
 #include "app/exhibit/hotspot_labels.h"
 #include "app/pack/pack_outline.h"
+#include "app/pack/pack_states.h"
 #include "app/residency/artifact_texts.h"
 #include "app/residency/known_world.h"
 #include "app/residency/run_cells.h"
@@ -31,7 +32,8 @@ struct KnownArtifact {
     pack::PackOutline outline;
     scene::ScenePlan plan;
     ArtifactTexts texts{};
-    std::shared_ptr<const KnownWorld> world{}; ///< null: nothing of it moves
+    std::shared_ptr<const KnownWorld> world{}; ///< null: no cell of it is drawn
+    std::vector<pack::PackState> states{};     ///< that windows may show; none without windows
 };
 
 struct PreparedArtifact {

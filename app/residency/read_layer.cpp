@@ -6,6 +6,9 @@ namespace frustumscreen::residency {
 
 Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer, std::uint32_t number, bool is_relief,
                        scene::Drawable& drawable) {
+    if (drawable.layers.at(layer.layer) != scene::TextureId::None) {
+        return {}; // read before, and a window may show it
+    }
     if (is_relief) {
         const auto found = std::find(layer.relief_texels.begin(), layer.relief_texels.end(), number);
         const auto place = static_cast<std::size_t>(found - layer.relief_texels.begin());

@@ -27,7 +27,8 @@ struct ReadLayer {
     std::vector<ReadLayer> cells{};                                       ///< by KnownWorld::drawn
 };
 
-/// Gives a level the layer's texture, or a relief its colours, if it has one. `number`: as LevelUse::level.
+/// Gives a level the layer's texture, or a relief its colours, if it has one and was not given it before.
+/// `number`: as LevelUse::level.
 [[nodiscard]] Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer, std::uint32_t number,
                                      bool is_relief, scene::Drawable& drawable);
 

@@ -17,6 +17,7 @@
 /// Errors   none.
 #pragma once
 
+#include "app/pack/pack_states.h"
 #include "app/render/renderer.h"
 #include "app/residency/known_world.h"
 #include "app/residency/run_levels.h"
@@ -24,6 +25,7 @@
 #include "app/scene/error_estimate.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/frame_time_model.h"
+#include "app/scene/pinned_view.h"
 #include "app/world/player.h"
 #include "firmware_host/base/time.h"
 
@@ -48,6 +50,8 @@ public:
     void give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store);
     /// Gives every cell's levels and reliefs those of `layer.cells`. All are given.
     [[nodiscard]] Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer);
+    /// The artifact's states, which windows show. `world`: with its curves.
+    void add_states(const pack::PackWorld& world, std::span<const pack::PackState> states);
     /// Removes all given levels from the store; drawing is then impossible.
     void release(render::GpuStore& store);
     /// GPU memory and main memory, by the plan.
@@ -88,7 +92,19 @@ public:
         return shows_ && !is_new_ ? std::span<const scene::Part>(parts_) : std::span<const scene::Part>();
     }
 
+    /// Adds what a window shows of the cells in a state: one level each, the same at all times. False: a layer is not there yet.
+    [[nodiscard]] bool show_state(std::size_t state, std::vector<scene::Part>& parts) const;
+    /// The same, as the cells stand at the latest step.
+    void show_moving(std::vector<scene::Part>& parts) const;
+    /// Around all states and the cells at rest, prop frame; none: there are no states.
+    [[nodiscard]] const std::optional<scene::WorldBall>& states_ball() const { return states_ball_; }
+
 private:
+    struct State {
+        std::vector<world::CellPose> poses; ///< by the player's cells
+        std::vector<bool> hidden;           ///< the same
+        std::optional<std::size_t> layer;
+    };
     struct Option {
         scene::SeenLevel seen;
         scene::PlacedLevel placed;
@@ -105,6 +121,8 @@ private:
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };
+    /// The option of a window; with a layer it is a mesh. None: the cell has no mesh.
+    [[nodiscard]] std::optional<std::size_t> window_option(std::size_t cell, bool is_mesh) const;
     [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
                                               int samples) const;
     /// Makes infinite the time of those options from `begin` to `end`, one cell's, that are neither as quick as its quickest
@@ -146,6 +164,8 @@ private:
     double log_load_ = 0.0;
     MonotonicTime timed_; ///< when the load was last learned
     std::vector<scene::Part> parts_;
+    std::vector<State> states_;
+    std::optional<scene::WorldBall> states_ball_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
     bool shows_ = false;
     bool is_new_ = false;                 ///< no picture of cells was drawn since they began to show

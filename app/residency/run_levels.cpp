@@ -155,6 +155,34 @@ Result<void> RunLevels::add_layer(render::GpuStore& store, const ReadLayer& laye
     return {};
 }
 
+std::optional<scene::PlacedLevel> RunLevels::in_layer(std::size_t layer) const {
+    constexpr double as_exact = 2.0; // times the error
+    const auto error = [](const Level& level) {
+        return static_cast<double>(scene::worst_of(level.seen).mean_box);
+    };
+    const auto triangles = [](const Level& level) { return level.placed.triangles->indices.size(); };
+    const double allowed = as_exact * error(levels_[shown_]);
+    const Level* best = nullptr;
+    for (const Level& level : levels_) {
+        if (!level.placed.triangles) {
+            continue;
+        }
+        const bool is_exact = error(level) <= allowed;
+        const bool best_is_exact = best != nullptr && error(*best) <= allowed;
+        if (best == nullptr || (is_exact && !best_is_exact) ||
+            (is_exact ? triangles(level) < triangles(*best)
+                      : !best_is_exact && error(level) < error(*best))) {
+            best = &level;
+        }
+    }
+    if (best == nullptr || best->placed.drawable.layers.at(layer) == scene::TextureId::None) {
+        return std::nullopt;
+    }
+    scene::PlacedLevel placed = best->placed;
+    placed.drawable.material.texture = placed.drawable.layers[layer];
+    return placed;
+}
+
 Result<RunLevels> RunLevels::upload(const pack::Pack& pack, const scene::ScenePlan& plan,
                                     std::string technique, double deadline_ms, render::GpuStore& store) {
     std::vector<PreparedLevel> prepared;

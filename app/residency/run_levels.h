@@ -136,6 +136,8 @@ public:
     [[nodiscard]] scene::PlacedLevel shown() const { return placed(shown_); }
     /// Its name among the pack's levels and reliefs.
     [[nodiscard]] const scene::QualityLevel& shown_quality() const { return levels_[shown_].shows; }
+    /// A mesh about as exact as what `draw` draws, in a layer's colours. None: there is no mesh, or the layer is not there.
+    [[nodiscard]] std::optional<scene::PlacedLevel> in_layer(std::size_t layer) const;
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
 

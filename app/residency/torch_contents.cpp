@@ -210,7 +210,8 @@ std::optional<TorchContents::Part> TorchContents::next_of(const torch::Content& 
     return std::nullopt;
 }
 
-std::optional<TorchContents::Part> TorchContents::next(std::span<const WantedContent> wanted) const {
+std::optional<TorchContents::Part> TorchContents::next(std::span<const WantedContent> wanted,
+                                                       std::span<const std::size_t> layers) const {
     const pack::PackTorches& torches = artifacts_[*artifact_].torches;
     for (std::size_t k = 0; k < films_.size(); ++k) {
         const Film& film = films_[k];
@@ -223,6 +224,11 @@ std::optional<TorchContents::Part> TorchContents::next(std::span<const WantedCon
     }
     for (const WantedContent& each : wanted) {
         if (const std::optional<Part> part = next_of(torches.contents[each.content].content)) {
+            return part;
+        }
+    }
+    for (const std::size_t layer : layers) {
+        if (const Part part{Kind::Layer, layer, 0}; state(part) == PartState::Absent) {
             return part;
         }
     }
@@ -262,8 +268,8 @@ void TorchContents::run_films(render::GpuStore& store, std::span<const WantedCon
     }
 }
 
-void TorchContents::step(render::GpuStore& store, std::size_t artifact,
-                         std::span<const WantedContent> wanted) {
+void TorchContents::step(render::GpuStore& store, std::size_t artifact, std::span<const WantedContent> wanted,
+                         std::span<const std::size_t> layers) {
     if (artifact_ != artifact) {
         release(store);
         artifact_ = artifact;
@@ -279,12 +285,12 @@ void TorchContents::step(render::GpuStore& store, std::size_t artifact,
             receive(store, answer->item, std::move(answer->prepared));
         }
         run_films(store, wanted);
-        const std::optional<Part> part = next(wanted);
+        const std::optional<Part> part = next(wanted, layers);
         reader_->request(part ? std::optional(item_of(artifact, *part)) : std::nullopt);
         return;
     }
     run_films(store, wanted);
-    for (std::optional<Part> part = next(wanted); part && !layer_; part = next(wanted)) {
+    for (std::optional<Part> part = next(wanted, layers); part && !layer_; part = next(wanted, layers)) {
         const std::size_t item = item_of(artifact, *part);
         receive(store, item, read(item));
         run_films(store, wanted);

@@ -1,5 +1,5 @@
-/// What torches throw onto the artifact on show, in memory: pictures, films and layers of its pack. Only an exhibit with
-/// torches has one.
+/// What torches throw onto the artifact on show, in memory: pictures, films and layers of its pack; and the layers of its
+/// states. Only an exhibit with torches, or with windows that show such states, has one.
 ///
 ///     step, once a frame: what the lights throw -> BackgroundReader -> one upload a frame -> shown
 ///
@@ -65,8 +65,9 @@ public:
     TorchContents(const TorchContents&) = delete;
     TorchContents& operator=(const TorchContents&) = delete;
 
-    /// Once a frame. `artifact`: on show; contents of another one are released.
-    void step(render::GpuStore& store, std::size_t artifact, std::span<const WantedContent> wanted);
+    /// Once a frame. `artifact`: on show; contents of another one are released. `layers`: wanted for themselves.
+    void step(render::GpuStore& store, std::size_t artifact, std::span<const WantedContent> wanted,
+              std::span<const std::size_t> layers = {});
     /// A layer that has been read, once; none: no new one.
     [[nodiscard]] std::optional<ReadLayer> take_layer();
     /// The layer is in the store, or why it is not.
@@ -121,7 +122,8 @@ private:
     [[nodiscard]] Result<void> upload(render::GpuStore& store, const Part& part, Read read);
     void run_films(render::GpuStore& store, std::span<const WantedContent> wanted);
     /// The next part to read.
-    [[nodiscard]] std::optional<Part> next(std::span<const WantedContent> wanted) const;
+    [[nodiscard]] std::optional<Part> next(std::span<const WantedContent> wanted,
+                                           std::span<const std::size_t> layers) const;
     [[nodiscard]] std::optional<Part> next_of(const torch::Content& content) const;
     [[nodiscard]] PartState state(const Part& part) const;
     void leave_out(const Part& part, std::string_view why);

@@ -92,8 +92,8 @@ double clearance(const geometry::PropShape& surface, const glm::dvec3& eye, cons
 /// moved along u. With the height e of the eye, the distance D of the middle and the radius r = scale * R:
 ///     it touches the table from below:          D (-u.z) = e + r + gap
 ///     it fills its share q of the clearance c:  r = q c D
-PinnedView behind(const PinRequest& request, PinnedView view, double clear, const glm::dvec3& ray,
-                  const glm::dquat& turn) {
+void put_behind(const PinRequest& request, double clear, const glm::dvec3& ray, const glm::dquat& turn,
+                PinnedView& view) {
     const double gap = gap_share * std::min(request.place.width_m, request.place.depth_m);
     const double down = -ray.z;
     const double filled = filled_share * clear / down; // r = filled * (e + r + gap)
@@ -105,7 +105,21 @@ PinnedView behind(const PinRequest& request, PinnedView view, double clear, cons
     view.window_from_prop = (view.table_from_window.inverse() * table_from_middle).matrix() *
                             glm::scale(glm::dmat4(1.0), glm::dvec3(view.scale)) *
                             glm::translate(glm::dmat4(1.0), -request.world.middle);
-    return view;
+}
+
+/// Into a surface that may have been used before.
+void put_surface(double width_m, double depth_m, geometry::PropShape& surface) {
+    surface.faces.resize(1);
+    geometry::PropFace& face = surface.faces.front();
+    face = {};
+    face.name = "window";
+    surface.corners.clear();
+    for (const glm::dvec2& corner :
+         {glm::dvec2(-1.0, -1.0), glm::dvec2(1.0, -1.0), glm::dvec2(1.0, 1.0), glm::dvec2(-1.0, 1.0)}) {
+        face.corners.push_back({0.5 * corner * glm::dvec2(width_m, depth_m), 0.0});
+        surface.corners.push_back(face.corners[face.corners.size() - 1]);
+    }
+    surface.bounds.assign(1, face.plane);
 }
 
 bool is_finite(const glm::dmat4& matrix) {
@@ -137,33 +151,53 @@ std::optional<WorldBall> ball_around(std::span<const Part> parts) {
     return ball;
 }
 
+bool contains(const WorldBall& ball, std::span<const Part> parts) {
+    bool contains = true;
+    for_each_point(parts, [&](const glm::dvec3& point) {
+        const glm::dvec3 away = point - ball.middle;
+        contains = contains && glm::dot(away, away) <= ball.radius * ball.radius;
+    });
+    return contains;
+}
+
+WorldBall united(const WorldBall& a, const WorldBall& b) {
+    const glm::dvec3 way = b.middle - a.middle;
+    const double apart = glm::length(way);
+    if (apart + b.radius <= a.radius) {
+        return a;
+    }
+    if (apart + a.radius <= b.radius) {
+        return b;
+    }
+    const double radius = 0.5 * (apart + a.radius + b.radius);
+    return {a.middle + way * ((radius - a.radius) / apart), radius};
+}
+
 geometry::RigidTransform table_from_window(const WindowPlace& place) {
     return {glm::angleAxis(place.yaw_rad, glm::dvec3(0.0, 0.0, 1.0)), {place.middle_m, 0.0}};
 }
 
 geometry::PropShape window_surface(double width_m, double depth_m) {
     geometry::PropShape surface;
-    geometry::PropFace& face = surface.faces.emplace_back();
-    face.name = "window";
-    for (const glm::dvec2& corner :
-         {glm::dvec2(-1.0, -1.0), glm::dvec2(1.0, -1.0), glm::dvec2(1.0, 1.0), glm::dvec2(-1.0, 1.0)}) {
-        face.corners.push_back({0.5 * corner * glm::dvec2(width_m, depth_m), 0.0});
-        surface.corners.push_back(face.corners[face.corners.size() - 1]);
-    }
-    surface.bounds = {face.plane};
+    put_surface(width_m, depth_m, surface);
     return surface;
 }
 
 std::optional<PinnedView> pin_view(const PinRequest& request) {
+    PinnedView view;
+    return pin_view(request, view) ? std::optional(std::move(view)) : std::nullopt;
+}
+
+bool pin_view(const PinRequest& request, PinnedView& view) {
     const WindowPlace& place = request.place;
     const glm::dvec3 middle(place.middle_m, 0.0);
     const glm::dvec3 to_prop = request.table_from_prop.point(request.prop_middle) - request.eye_m;
     const glm::dvec3 to_world = request.table_from_prop.point(request.world.middle) - request.eye_m;
-    PinnedView view{.surface = window_surface(place.width_m, place.depth_m),
-                    .table_from_window = table_from_window(place)};
+    put_surface(place.width_m, place.depth_m, view.surface);
+    view.table_from_window = table_from_window(place);
     if (!(request.eye_m.z > 0.0) || !(glm::length(to_prop) > 0.0) || !(glm::length(to_world) > 0.0) ||
         !(request.world.radius > 0.0) || !(request.zoom > 0.0)) {
-        return std::nullopt;
+        return false;
     }
     const glm::dquat turn = level_turn(to_prop, middle - request.eye_m);
     const glm::dvec3 eye = view.table_from_window.inverse().point(request.eye_m);
@@ -176,9 +210,8 @@ std::optional<PinnedView> pin_view(const PinRequest& request) {
     if (constexpr double min_share = 0.5; !(clearance_of(ray) > min_share * clearance_of(straight))) {
         ray = straight;
     }
-    view = behind(request, std::move(view), clearance_of(ray), ray, turn);
-    return is_finite(view.window_from_prop) && view.scale > 0.0 ? std::optional(std::move(view))
-                                                                : std::nullopt;
+    put_behind(request, clearance_of(ray), ray, turn, view);
+    return is_finite(view.window_from_prop) && view.scale > 0.0;
 }
 
 void move_behind(const glm::dmat4& window_from_prop, std::span<const Part> parts, std::vector<Part>& moved) {

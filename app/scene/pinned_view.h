@@ -7,8 +7,8 @@
 ///          eye sees whole in the window, with a margin; its size and its distance from the eye follow from both.
 /// Frames   table T; prop P; window: origin in its middle on the table, z up, y away from whoever pins it at yaw 0.
 /// Units    metres.
-/// Threads  pure; any. `pin_view` allocates the surface; `move_behind` nothing if its target has room.
-/// Errors   nullopt: the eye is not above the table, or a number is not finite.
+/// Threads  pure; any. Nothing allocates into a view that was made before; `move_behind` neither if its target has room.
+/// Errors   nullopt, false: the eye is not above the table, or a number is not finite.
 #pragma once
 
 #include "app/scene/frame_plan.h"
@@ -26,6 +26,10 @@ struct WorldBall {
 };
 /// Around all that the parts draw, in the frame that they are placed in. nullopt: they draw nothing.
 [[nodiscard]] std::optional<WorldBall> ball_around(std::span<const Part> parts);
+/// True if all that the parts draw lies in it.
+[[nodiscard]] bool contains(const WorldBall& ball, std::span<const Part> parts);
+/// The smallest one around both.
+[[nodiscard]] WorldBall united(const WorldBall& a, const WorldBall& b);
 
 /// A window's place on the table.
 struct WindowPlace {
@@ -53,6 +57,8 @@ struct PinnedView {
     double scale = 1.0;               ///< of it
 };
 [[nodiscard]] std::optional<PinnedView> pin_view(const PinRequest& request);
+/// As above, into a view that may have been used before; after false it is worth nothing.
+[[nodiscard]] bool pin_view(const PinRequest& request, PinnedView& view);
 
 /// The face of a window: a rectangle that looks up.
 [[nodiscard]] geometry::PropShape window_surface(double width_m, double depth_m);

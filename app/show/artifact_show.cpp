@@ -384,10 +384,14 @@ ArtifactShow::place_caption(const exhibit::Presentation& presentation) const {
 
 std::span<const scene::PlacedTorch> ArtifactShow::throw_light(const exhibit::Presentation& presentation) {
     residency::TorchContents* const contents = set_->torch_contents.get();
-    if (!torches_ || contents == nullptr) {
+    if (contents == nullptr) {
         return {};
     }
-    contents->step(renderer_.store(), presentation.artifact, wanted_contents(presentation, *contents).all());
+    const std::span<const std::size_t> layers =
+        windows_ ? windows_->layers_of(set_->artifact_cache->known(presentation.artifact))
+                 : std::span<const std::size_t>();
+    contents->step(renderer_.store(), presentation.artifact, wanted_contents(presentation, *contents).all(),
+                   layers);
     if (residency::RunLevels* const levels = set_->artifact_cache->find(presentation.artifact)) {
         if (const std::optional<residency::ReadLayer> layer = contents->take_layer()) {
             Result<void> added = levels->add_layer(renderer_.store(), *layer);
@@ -398,7 +402,27 @@ std::span<const scene::PlacedTorch> ArtifactShow::throw_light(const exhibit::Pre
             contents->note_layer(layer->layer, added);
         }
     }
-    return torches_->place(presentation, *contents);
+    return torches_ ? torches_->place(presentation, *contents) : std::span<const scene::PlacedTorch>();
+}
+
+bool ArtifactShow::move_cells(MonotonicTime now, const exhibit::Presentation& presentation,
+                              residency::RunLevels* levels, residency::RunCells* cells) {
+    if (levels == nullptr) {
+        on_.reset();
+        return false;
+    }
+    if (on_ != presentation.artifact) {
+        levels->enter(now, load_);
+        if (cells != nullptr) {
+            cells->enter(now);
+        }
+        on_ = presentation.artifact;
+    }
+    if (cells == nullptr) {
+        return false;
+    }
+    play(now, presentation.behaviours, cells->player());
+    return cells->step(now, load_);
 }
 
 render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presentation& presentation,
@@ -409,6 +433,9 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
                                             .shown_language = presentation.table_language,
                                             .wanted = presentation.wanted.artifacts(),
                                             .language = presentation.wanted_language});
+    residency::RunLevels* const levels = artifact_cache.find(presentation.artifact);
+    residency::RunCells* const cells = artifact_cache.find_cells(presentation.artifact);
+    const bool shows_cells = move_cells(now, presentation, levels, cells);
     scene::PlanView view{.projector = layout_.pinhole,
                          .table_from_projector = table_from_projector_,
                          .table_from_prop = presentation.table_from_prop,
@@ -425,6 +452,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     if (windows != nullptr) {
         view.windows = windows->place(presentation, eyes_m, artifact_cache);
         windows->place_frames(presentation, caption_brightness_, on_table_);
+        place_state_titles(presentation);
     }
     place_zone_frame(presentation);
     set_->table.place(
@@ -442,27 +470,14 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     marks_.place(mark_, on_table_);
     view.on_table = on_table_.pictures();
     const std::array<scene::PlanView, 2> views = scene::views_of(layout_, view, eyes_m);
-    residency::RunLevels* const levels = artifact_cache.find(presentation.artifact);
     if (levels == nullptr) {
-        on_.reset();
         const LentSpace lent(windows, dark_);
         for (std::size_t eye = 0; eye < layout_.count; ++eye) {
             scene::plan_frame(prop_, scene::PlacedLevel{}, views[eye], dark_[eye]);
         }
         return renderer_.draw(dark_, target, redraw);
     }
-    residency::RunCells* const cells = artifact_cache.find_cells(presentation.artifact);
-    if (on_ != presentation.artifact) {
-        levels->enter(now, load_);
-        if (cells != nullptr) {
-            cells->enter(now);
-        }
-        on_ = presentation.artifact;
-    }
-    if (cells != nullptr) {
-        play(now, presentation.behaviours, cells->player());
-    }
-    if (cells != nullptr && cells->step(now, load_)) {
+    if (shows_cells) {
         const LentSpace lent(windows, cells->plans());
         return cells->draw(now, levels->shown(), prop_, std::span(views).first(layout_.count), renderer_,
                            target, redraw);
@@ -498,6 +513,9 @@ ShowUse ArtifactShow::use() const {
 }
 
 void ArtifactShow::record_time(MonotonicTime now, double ms) {
+    if (windows_) {
+        windows_->record_time(now, ms);
+    }
     residency::RunLevels* const levels = on_ ? set_->artifact_cache->find(*on_) : nullptr;
     residency::RunCells* const cells = on_ ? set_->artifact_cache->find_cells(*on_) : nullptr;
     if (cells != nullptr && cells->shows()) {

@@ -147,6 +147,10 @@ private:
     void place_hotspot(const exhibit::Presentation& presentation);
     /// Places the title of the behaviour that the button begins.
     void place_title(const exhibit::Presentation& presentation);
+    void place_state_titles(const exhibit::Presentation& presentation);
+    /// Starts and ends behaviours and moves the cells. True: the cells of the artifact on show are drawn.
+    [[nodiscard]] bool move_cells(MonotonicTime now, const exhibit::Presentation& presentation,
+                                  residency::RunLevels* levels, residency::RunCells* cells);
     /// Places the sign of the guidance.
     void place_signs(const exhibit::Presentation& presentation);
     /// Steps what torches throw; returns what they throw now.

@@ -16,7 +16,10 @@ std::optional<settings::Command> command_of(const panel::PanelEvent& event) {
     case panel::PressKind::Press:
         return settings::command_of_button(event.button);
     case panel::PressKind::LongPress:
-        return event.button == 0 ? settings::Command::HoldFirst : settings::Command::HoldOther;
+        return event.button == 0 ? settings::Command::HoldFirst
+               : event.button == settings::button_of(settings::Command::Window)
+                   ? settings::Command::HoldWindow
+                   : settings::Command::HoldOther;
     case panel::PressKind::Chord:
         return settings::Command::StaffMode;
     default:

@@ -59,7 +59,8 @@ exhibit::ExhibitPlace exhibit_place(const settings::Settings& settings) {
     }
     if (settings.windows.exist()) {
         place.windows = {.count = settings.windows.count,
-                         .size_m = {settings.windows.width_m, settings.windows.depth_m}};
+                         .size_m = {settings.windows.width_m, settings.windows.depth_m},
+                         .live = settings.windows.live};
     }
     place.rest = Nanoseconds(std::llround(1e9 * settings.exhibit.rest_s));
     return place;

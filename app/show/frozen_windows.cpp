@@ -77,9 +77,13 @@ std::uint32_t level_for(const pack::PackOutline& outline, const scene::ScenePlan
 FrozenWindows::FrozenWindows(const settings::ProjectorSettings& projector, bool waits)
     : projector_(projector.pinhole), table_from_projector_(projector.table_from_projector), waits_(waits) {}
 
+void FrozenWindows::forget(std::uint32_t number) {
+    is_new_ =
+        std::erase_if(windows_, [&](const Window& each) { return each.number == number; }) > 0 || is_new_;
+}
+
 void FrozenWindows::freeze(const FrozenWindow& window) {
-    std::erase_if(windows_, [&](const Window& each) { return each.number == window.number; });
-    is_new_ = true;
+    forget(window.number);
     if (!cost_ || window.parts.size() != 1 || window.known.world ||
         window.parts.front().level.light != glm::vec3(1.0F) || scene::if_it_bends(projector_)) {
         return;

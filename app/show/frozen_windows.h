@@ -50,6 +50,8 @@ public:
     void set_cost(const scene::FrameCost& cost) { cost_ = cost; }
     /// Begins the window's patches, in place of those that it had.
     void freeze(const FrozenWindow& window);
+    /// Takes the window's patches away.
+    void forget(std::uint32_t number);
     /// Begins with this world; `freeze` without the choice.
     void begin(std::uint32_t number, PatchJobSetUp set_up);
     /// What is ready for a window, which these eyes look at, window's frame; null: it has no patches.

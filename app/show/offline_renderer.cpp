@@ -63,17 +63,44 @@ scene::RenderNeeds needs_of(const std::vector<Source>& sources, bool moves,
                  : needs;
 }
 
-Result<scene::PlacedLevel> upload(const Source& source, render::GpuStore& store) {
+/// In place of a source's own texture or colours; null: none.
+struct Look {
+    const image::Image8* texture = nullptr;
+    const std::vector<glm::u8vec4>* colours = nullptr;
+};
+
+Look look_of(const std::optional<OfflineTorch>& look, std::size_t number) {
+    if (!look) {
+        return {};
+    }
+    return look->textures[number].texels.empty() ? Look{nullptr, look->colours[number].get()}
+                                                 : Look{&look->textures[number], nullptr};
+}
+
+std::shared_ptr<const relief::BlockRelief> in_look(const std::shared_ptr<const relief::BlockRelief>& relief,
+                                                   const Look& look) {
+    if (look.colours == nullptr) {
+        return relief;
+    }
+    auto changed = std::make_shared<relief::BlockRelief>(*relief);
+    changed->colours = *look.colours;
+    return changed;
+}
+
+Result<scene::PlacedLevel> upload(const Source& source, const Look& look, render::GpuStore& store) {
     const scene::ScenePlan& plan = source.plan;
     if (source.relief) {
         const bool on_gpu = plan.quality_levels.front().on_gpu;
-        TRY(const scene::Drawable drawable, on_gpu ? store.upload(source.relief) : store.keep(source.relief));
-        scene::PlacedLevel placed = scene::placed(source.pack, source.relief, plan.metres_per_box, drawable);
+        const std::shared_ptr<const relief::BlockRelief> relief = in_look(source.relief, look);
+        TRY(const scene::Drawable drawable, on_gpu ? store.upload(relief) : store.keep(relief));
+        scene::PlacedLevel placed = scene::placed(source.pack, relief, plan.metres_per_box, drawable);
         placed.on_gpu = on_gpu;
         return placed;
     }
     const pack::PackLevel& mesh = source.level->mesh;
-    TRY(const scene::Drawable drawable, store.upload(*source.level, source.pack.textures[mesh.texture]));
+    TRY(const scene::Drawable drawable,
+        store.upload(*source.level,
+                     look.texture != nullptr ? *look.texture : source.pack.textures[mesh.texture]));
     return scene::PlacedLevel{
         .triangles = std::make_shared<scene::LevelTriangles>(scene::triangles_of(mesh, source.pack.box_size)),
         .box_size = source.pack.box_size,
@@ -144,7 +171,8 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     technique_ = names_of(sources);
     std::size_t indices = 0;
     for (const Source& source : sources) {
-        TRY(scene::PlacedLevel placed, upload(source, renderer_->store()));
+        TRY(scene::PlacedLevel placed,
+            upload(source, look_of(scene.look, parts_.size()), renderer_->store()));
         placed.samples = samples_of(scene.setup.options, *scene.pack);
         placed.faces = source.plan.faces;
         indices += placed.triangles ? placed.triangles->indices.size() : 0;
@@ -160,6 +188,7 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     if (scene.world) {
         cells_ = scene.world->cells;
         behaviour_ = scene.world->behaviour;
+        held_s_ = scene.world->held_s;
     }
     for (std::size_t eye = 0; eye < scene.plan.eyes; ++eye) {
         plans_.push_back(scene::make_plan(prop_, indices, parts_.size()));
@@ -177,7 +206,7 @@ void OfflineRenderer::pose_cells(double seconds) {
     if (cells_.empty()) {
         return;
     }
-    const std::vector<world::CellPose> poses = world::poses_at(cells_, behaviour_, seconds);
+    const std::vector<world::CellPose> poses = world::poses_at(cells_, behaviour_, held_s_.value_or(seconds));
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         scene::set_pose(parts_[k].level, poses[shown_[k].cell.value()], metres_per_box_);
     }

@@ -1,6 +1,7 @@
 #include "app/show/offline_scene.h"
 
 #include "app/pack/pack_relief.h"
+#include "app/pack/pack_states.h"
 #include "app/pack/pack_world.h"
 #include "app/render/renderer.h"
 #include "app/scene/cell_plan.h"
@@ -55,6 +56,36 @@ Result<std::size_t> find_behaviour(const pack::PackWorld& world, const std::stri
                      names);
 }
 
+Result<pack::PackState> find_state(const pack::PackDescription& pack, const std::string& name) {
+    TRY(const std::vector<pack::PackState> states, pack::states_of(pack));
+    std::string names;
+    for (const pack::PackState& state : states) {
+        if (state.name == name) {
+            return state;
+        }
+        names += (names.empty() ? "" : ", ") + state.name;
+    }
+    return bad_input("render.no_state", "--state {}: the pack has no such state; it has {}", name,
+                     names.empty() ? "none" : names);
+}
+
+/// Holds the cells as they are at the state's behaviour's end, and leaves out those that are hidden.
+Result<void> hold_state(const pack::PackState& state, const pack::PackWorld& world, OfflineWorld& read) {
+    if (state.behaviour) {
+        read.behaviour = world.behaviours.at(*state.behaviour).behaviour;
+        read.behaviour.repeats = false;
+        read.behaviour.stays = true;
+        read.held_s = 2.0 * read.behaviour.seconds; // then it is still
+    }
+    std::erase_if(read.drawn, [&](const OfflineCell& cell) {
+        return std::find(state.hidden.begin(), state.hidden.end(), cell.cell) != state.hidden.end();
+    });
+    if (read.drawn.empty()) {
+        return bad_input("render.empty_state", "--state {}: it hides every part of the artifact", state.name);
+    }
+    return {};
+}
+
 /// Reads the cell's level or relief.
 Result<OfflineCell> load_offline_cell(const std::filesystem::path& file, const OfflineScene& scene,
                                       const pack::PackCell& cell, std::size_t number,
@@ -92,13 +123,23 @@ Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const
             read.drawn.push_back(std::move(cell));
         }
     }
+    if (const std::string& name = scene.setup.options.state; !name.empty()) {
+        TRY(const pack::PackState state, find_state(*scene.pack, name));
+        TRY_VOID(hold_state(state, world, read));
+    }
     return read;
 }
 
-/// A behaviour is drawn with the cells, and so is a pack whose cells are quicker than the whole.
+/// A behaviour is drawn with the cells, and so are a state of them and a pack whose cells are quicker than the whole.
 Result<bool> draws_cells(const OfflineOptions& options, const pack::PackDescription& pack) {
     if (!options.behaviour.empty()) {
         return true;
+    }
+    if (!options.state.empty()) {
+        TRY(const pack::PackState state, find_state(pack, options.state));
+        if (state.behaviour || !state.hidden.empty()) {
+            return true;
+        }
     }
     TRY(const pack::PackWorld world, pack::world_outline_of(pack));
     return world.drawn_at_rest && options.technique == "auto";
@@ -150,6 +191,12 @@ load_offline(const std::filesystem::path& file,
     } else if (!scene.plan.reliefs.empty()) {
         TRY(relief::BlockRelief relief, pack::load_relief(file, scene.plan.reliefs.front()));
         scene.relief = std::make_shared<const relief::BlockRelief>(std::move(relief));
+    }
+    if (const std::string& name = scene.setup.options.state; !name.empty()) {
+        TRY(const pack::PackState state, find_state(*scene.pack, name));
+        if (state.layer) {
+            TRY(scene.look, load_offline_layer(file, scene, *state.layer));
+        }
     }
     if (!scene.setup.options.torch.empty()) {
         TRY(scene.torch, load_offline_torch(file, scene, scene.setup.options.torch));

@@ -1,7 +1,7 @@
 /// A pack's file, of which only what its pictures need was read: the whole artifact, or its cells for a
 /// behaviour and where they are quicker.
 ///
-/// Errors   as load_pack and plan_scene; a behaviour that the pack does not have.
+/// Errors   as load_pack and plan_scene; a behaviour or a state that the pack does not have.
 /// Threads  any.
 #pragma once
 
@@ -35,6 +35,7 @@ struct OfflineOptions {
     /// All poses that will be drawn, one entry for each eye; empty: any pose may be drawn.
     std::vector<scene::KnownView> views;
     std::string behaviour = {}; ///< that moves the artifact's cells; empty: it is drawn at rest
+    std::string state = {};     ///< in which the artifact is drawn; empty: as it is
     std::string torch =
         {}; ///< content that torches throw: torch::white_name, or one of the pack's; empty: there are none
     std::size_t windows = 0; ///< that may be pinned, up to scene::max_windows
@@ -56,6 +57,7 @@ struct OfflineWorld {
     std::vector<world::Cell> cells;
     world::Behaviour behaviour;     ///< moves nothing: the cells are drawn at rest
     std::vector<OfflineCell> drawn; ///< the cells with geometry
+    std::optional<double> held_s{}; ///< of a state: the time in the behaviour at which every picture is
 };
 /// What torches throw.
 struct OfflineTorch {
@@ -75,6 +77,8 @@ struct OfflineScene {
     std::shared_ptr<const relief::BlockRelief> relief; ///< in place of a level
     std::optional<OfflineWorld> world;                 ///< drawn in place of the whole
     std::optional<OfflineTorch> torch = std::nullopt;  ///< none: no torch is drawn
+    std::optional<OfflineTorch> look =
+        std::nullopt; ///< of a state, in place of its own: a layer's textures and colours
 };
 
 /// `setup_of` returns the set-up for a pack's outline.

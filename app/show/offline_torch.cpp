@@ -71,6 +71,13 @@ Result<void> add_layers(const std::filesystem::path& file, const OfflineScene& s
 
 } // namespace
 
+Result<OfflineTorch> load_offline_layer(const std::filesystem::path& file, const OfflineScene& scene,
+                                        std::size_t layer) {
+    OfflineTorch look;
+    TRY_VOID(add_layers(file, scene, layer, look));
+    return look;
+}
+
 Result<OfflineTorch> load_offline_torch(const std::filesystem::path& file, const OfflineScene& scene,
                                         const std::string& name) {
     TRY(const pack::PackTorches torches, pack::torches_of(*scene.pack));

@@ -16,4 +16,8 @@ namespace frustumscreen::show {
 [[nodiscard]] Result<OfflineTorch> load_offline_torch(const std::filesystem::path& file,
                                                       const OfflineScene& scene, const std::string& name);
 
+/// A layer of the pack alone: textures and colours in place of those of each thing that is drawn.
+[[nodiscard]] Result<OfflineTorch> load_offline_layer(const std::filesystem::path& file,
+                                                      const OfflineScene& scene, std::size_t layer);
+
 } // namespace frustumscreen::show

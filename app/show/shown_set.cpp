@@ -69,6 +69,12 @@ void expect(const ExpectedFrames& frames, const residency::KnownArtifact& known,
     levels.start(frames.cost, frames.prop, seen);
 }
 
+/// True if windows show an artifact in a layer's colours.
+bool has_layer(const residency::KnownArtifact& known) {
+    return std::any_of(known.states.begin(), known.states.end(),
+                       [](const pack::PackState& state) { return state.layer.has_value(); });
+}
+
 /// Of `exhibit.memory_mb`, what torches throw takes at most one part in so many.
 constexpr std::uint64_t share_of_torches = 4;
 
@@ -118,10 +124,16 @@ Result<std::unique_ptr<ShownSet>> open_set(const settings::Settings& settings, c
     }
     const double share = settings.screen.exists() ? 1.0 - RoomShow::room_share : 1.0;
     const auto whole = static_cast<std::uint64_t>(share * 1e6 * settings.exhibit.memory_mb);
-    const std::uint64_t thrown = settings.torch.exists() ? whole / share_of_torches : 0;
+    const bool layers = std::any_of(opened.known.begin(), opened.known.end(), has_layer);
+    const std::uint64_t thrown = settings.torch.exists() || layers ? whole / share_of_torches : 0;
     const std::uint64_t budget = whole - thrown;
-    if (settings.torch.exists()) {
+    if (settings.torch.exists() || layers) {
         TRY(std::vector<residency::ThrownContents> contents, residency::thrown_contents(opened.known));
+        for (residency::ThrownContents& each : contents) {
+            if (!settings.torch.exists()) {
+                each.torches.contents.clear();
+            }
+        }
         set->torch_contents = std::make_unique<residency::TorchContents>(
             std::move(contents), residency::TorchContents::Options{.max_bytes = thrown,
                                                                    .waits = options.waits,

@@ -76,7 +76,8 @@ struct ShownSet {
     std::vector<std::string> notes;      ///< sentences about settings that may be unintended
     scene::RenderNeeds needs;
     std::unique_ptr<residency::ArtifactCache> artifact_cache;
-    std::unique_ptr<residency::TorchContents> torch_contents; ///< null: there is no torch
+    std::unique_ptr<residency::TorchContents>
+        torch_contents; ///< null: there is no torch and no state with a layer
     AdviceWords words;
     residency::LoadedTexts word_pictures;
     TableShow table;

@@ -49,7 +49,7 @@ scene::WindowPlace place_of(const typography::TableRectangle& rectangle) {
 WindowShow::WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes,
                        bool waits)
     : windows_(settings.windows), frame_m_(line_width_m(settings.projector)), prop_middle_m_(prop.middle),
-      frozen_(settings.projector, waits) {
+      samples_(1e3 / settings.projector.refresh_hz), frozen_(settings.projector, waits) {
     for (std::size_t eye = 0; eye < eyes; ++eye) {
         spaces_.push_back(scene::make_plan(prop, 0, 1));
     }
@@ -84,9 +84,21 @@ void WindowShow::make_space(const residency::ArtifactCache& cache) {
     }
     for (Held& held : held_) {
         held = {};
-        held.parts.reserve(parts);
-        held.moved.reserve(parts);
+        held.parts.reserve(parts + 1); // with the whole artifact, while it fades to its cells or back
+        held.moved.reserve(parts + 1);
+        held.view.surface = scene::window_surface(windows_.width_m, windows_.depth_m);
     }
+}
+
+std::span<const std::size_t> WindowShow::layers_of(const residency::KnownArtifact& artifact) {
+    std::size_t count = 0;
+    for (const pack::PackState& state : artifact.states) {
+        const auto end = layers_.begin() + static_cast<std::ptrdiff_t>(count);
+        if (state.layer && std::find(layers_.begin(), end, *state.layer) == end) {
+            layers_.at(count++) = *state.layer;
+        }
+    }
+    return std::span(layers_).first(count);
 }
 
 void WindowShow::place_frames(const exhibit::Presentation& presentation, double brightness,
@@ -107,40 +119,74 @@ void WindowShow::place_frames(const exhibit::Presentation& presentation, double 
     }
 }
 
-/// Keeps the parts that the prop shows. If two levels fade in a cell, it keeps the one that fades in.
+/// Keeps the parts that the prop shows, or those of a state. If two levels fade in a cell, it keeps the one that fades in.
 void WindowShow::freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                         Held& held) const {
     held.parts.clear();
+    held.is_frozen = true;
     const residency::RunCells* const cells = cache.find_cells(window.artifact);
-    if (cells != nullptr) {
+    const residency::RunLevels& levels = *cache.find(window.artifact);
+    if (window.state && cells != nullptr) {
+        held.is_frozen = cells->show_state(*window.state, held.parts);
+    } else if (window.state) {
+        const std::optional<std::size_t> layer = cache.known(window.artifact).states.at(*window.state).layer;
+        const std::optional<scene::PlacedLevel> shown = layer ? levels.in_layer(*layer) : levels.shown();
+        held.is_frozen = shown.has_value();
+        if (shown) {
+            held.parts.push_back({*shown, std::nullopt});
+        }
+    } else if (window.live && cells != nullptr) {
+        cells->show_moving(held.parts);
+    } else if (cells != nullptr) {
         for (const scene::Part& part : cells->parts()) {
             if (!part.dither || !part.dither->complement) {
                 held.parts.push_back({part.level, std::nullopt});
             }
         }
     }
-    if (held.parts.empty()) {
-        held.parts.push_back({cache.find(window.artifact)->shown(), std::nullopt});
+    if (held.is_frozen && held.parts.empty()) {
+        held.parts.push_back({levels.shown(), std::nullopt});
     }
 }
 
-void WindowShow::aim(const exhibit::PresentedWindow& window, Held& held) const {
+void WindowShow::aim(const exhibit::PresentedWindow& window, const std::optional<scene::WorldBall>& states,
+                     Held& held) const {
     held.comings = window.comings;
+    held.turn_rad = window.turn_rad;
+    held.zoom = window.zoom;
     held.is_aimed = false;
-    const std::optional<scene::WorldBall> ball = scene::ball_around(held.parts);
+    std::optional<scene::WorldBall> ball = states;
+    if (!ball || !scene::contains(*ball, held.parts)) {
+        ball = scene::ball_around(held.parts);
+        ball = ball && states ? std::optional(scene::united(*ball, *states)) : ball;
+    }
     if (!ball) {
         return;
     }
-    std::optional<scene::PinnedView> view = scene::pin_view({.table_from_prop = window.table_from_prop,
-                                                             .prop_middle = prop_middle_m_,
-                                                             .eye_m = window.eye_m,
-                                                             .world = *ball,
-                                                             .place = place_of(window.rectangle)});
-    if (view) {
-        held.view = std::move(*view);
+    held.is_aimed = scene::pin_view({.table_from_prop = window.table_from_prop,
+                                     .prop_middle = prop_middle_m_,
+                                     .eye_m = window.eye_m,
+                                     .world = *ball,
+                                     .place = place_of(window.rectangle),
+                                     .turn = glm::angleAxis(window.turn_rad, glm::dvec3(0.0, 0.0, 1.0)),
+                                     .zoom = window.zoom},
+                                    held.view);
+    if (held.is_aimed) {
         scene::move_behind(held.view.window_from_prop, held.parts, held.moved);
-        held.is_aimed = true;
     }
+}
+
+/// As the parts had when they were frozen, or one.
+void WindowShow::set_samples(Held& held) const {
+    for (std::size_t k = 0; k < held.moved.size(); ++k) {
+        held.moved[k].level.samples = samples_.few() ? 1 : held.parts[k].level.samples;
+    }
+}
+
+void WindowShow::go_on(const residency::RunCells& cells, Held& held) const {
+    held.parts.clear();
+    cells.show_moving(held.parts);
+    scene::move_behind(held.view.window_from_prop, held.parts, held.moved);
 }
 
 WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
@@ -160,19 +206,26 @@ WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
         found->number = window.number;
         found->comings = 0;
         found->is_aimed = false;
+        found->is_frozen = false;
+        found->follows = false;
         found->lost = cache.find(window.artifact) == nullptr;
-        if (!found->lost) {
-            freeze(window, cache, *found);
-        }
+    }
+    if (!found->lost && !found->is_frozen && cache.find(window.artifact) != nullptr) {
+        freeze(window, cache, *found);
     }
     return *found;
 }
 
 void WindowShow::begin_patches(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
-                               const Held& held) {
-    if (held.is_aimed) {
+                               Held& held) {
+    held.follows = window.follows;
+    const residency::KnownArtifact& known = cache.known(window.artifact);
+    const bool in_layer = window.state && known.states.at(*window.state).layer;
+    if (!held.is_aimed || window.follows || window.live || in_layer) {
+        frozen_.forget(window.number);
+    } else {
         frozen_.freeze({.number = window.number,
-                        .known = cache.known(window.artifact),
+                        .known = known,
                         .shown = cache.find(window.artifact)->shown_quality(),
                         .parts = held.moved,
                         .view = held.view,
@@ -199,12 +252,20 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
     for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
         Held& held = held_of(window, presentation.windows, cache);
         held.lost = held.lost || cache.find(window.artifact) == nullptr;
-        if (held.lost || window.comings == 0) {
+        if (held.lost || !held.is_frozen || window.comings == 0) {
             continue;
         }
-        if (held.comings != window.comings) {
-            aim(window, held);
+        const residency::RunCells* const cells = cache.find_cells(window.artifact);
+        const bool is_new =
+            held.comings != window.comings || held.turn_rad != window.turn_rad || held.zoom != window.zoom;
+        if (is_new) {
+            aim(window, cells != nullptr ? cells->states_ball() : std::nullopt, held);
+        }
+        if (is_new || held.follows != window.follows) {
             begin_patches(window, cache, held);
+        }
+        if (window.live && held.is_aimed && cells != nullptr && window.artifact == presentation.artifact) {
+            go_on(*cells, held);
         }
         double share = 1.0;
         for (const glm::dvec3& eye : eyes_m) {
@@ -214,6 +275,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
         if (!held.is_aimed || brightness <= 0.0 || count >= placed_.size()) {
             continue;
         }
+        set_samples(held);
         geometry::RigidTransform table_from_window = held.view.table_from_window;
         table_from_window.translation =
             glm::dvec3(window.rectangle.centre_m, table_from_window.translation.z);
@@ -224,6 +286,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
                                .patches = patches_for(window.number, table_from_window, eyes_m)};
     }
     frozen_.step(presentation.windows.windows());
+    shows_ = count > 0;
     return std::span(placed_).first(count);
 }
 
@@ -238,7 +301,7 @@ std::span<const scene::PlacedWindow> WindowShow::sample(const scene::PlacedLevel
          .eye_m = eye_m,
          .table_from_prop = {},
          .brightness = 1.0},
-        held);
+        std::nullopt, held);
     if (!held.is_aimed) {
         return {};
     }

@@ -3,12 +3,17 @@
 /// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye, or their
 ///          patches are (frozen_windows.h). The governor's
 ///          later choices do not change them. A window whose artifact leaves the cache shows nothing any more.
+/// States   a window of a state shows its cells or its layer. All windows of an artifact with states are as large as all of its
+///          states together need, so that they compare. Until the layer has come, the window is dark.
+/// Time     the windows' time is part of the frame's, which the governor bounds by the level in the prop; frames that miss their
+///          deadline nevertheless draw windows with one sample a pixel (window_samples.h).
+/// Live     the cells of a live window stand as those in the prop do, while the artifact is on show. Torches light the prop alone.
 /// Slant    a window is seen from within 60 degrees of its normal; beyond `full_deg` it fades, and is dark at the limit. Its
 ///          frame stays.
 /// Memory   one plan for each window and eye, for the largest level of any artifact of the set; the plan of the frame
 ///          borrows them while it is drawn. Nothing without windows.
 /// Frames   table T, metres.
-/// Threads  the render thread. Allocates only in `make_space`, and when a window comes to a place.
+/// Threads  the render thread. Allocates only in `make_space`.
 /// Errors   the driver has no memory.
 #pragma once
 
@@ -18,6 +23,7 @@
 #include "app/residency/on_table.h"
 #include "app/scene/frame_plan.h"
 #include "app/scene/pinned_view.h"
+#include "app/scene/window_samples.h"
 #include "app/settings/settings.h"
 #include "app/show/frozen_windows.h"
 
@@ -48,12 +54,16 @@ public:
     /// Makes room for all that the artifacts of this set may show, and forgets the windows of another one.
     void make_space(const residency::ArtifactCache& cache);
 
+    /// The layers that the states of the artifact on show need, once for each.
+    [[nodiscard]] std::span<const std::size_t> layers_of(const residency::KnownArtifact& artifact);
     void place_frames(const exhibit::Presentation& presentation, double brightness,
                       residency::OnTable& on_table) const;
     /// Freezes new windows, and returns the windows that are seen; valid until the next call.
     [[nodiscard]] std::span<const scene::PlacedWindow> place(const exhibit::Presentation& presentation,
                                                              std::span<const glm::dvec3> eyes_m,
                                                              const residency::ArtifactCache& cache);
+    /// A frame took `ms` until it was complete.
+    void record_time(MonotonicTime now, double ms) { samples_.record(now, ms, shows_); }
     /// The level in a window at a place, to draw one frame with.
     [[nodiscard]] std::span<const scene::PlacedWindow>
     sample(const scene::PlacedLevel& level, const glm::dvec2& place_m, const glm::dvec3& eye_m);
@@ -64,31 +74,43 @@ public:
 private:
     struct Held {
         std::uint32_t number = 0, comings = 0;
-        bool lost = false;              ///< its artifact has left the cache
-        std::vector<scene::Part> parts; ///< prop frame, as the prop showed them
-        std::vector<scene::Part> moved; ///< window's frame
+        double turn_rad = 0.0, zoom = 1.0; ///< as aimed
+        bool is_frozen = false;            ///< false: its layer has not come yet
+        bool follows = false;              ///< as PresentedWindow::follows
+        bool lost = false;                 ///< its artifact has left the cache
+        std::vector<scene::Part> parts;    ///< prop frame, as the prop showed them
+        std::vector<scene::Part> moved;    ///< window's frame
         scene::PinnedView view;
         bool is_aimed = false;
     };
     [[nodiscard]] Held& held_of(const exhibit::PresentedWindow& window,
                                 const exhibit::PresentedWindows& presented,
                                 const residency::ArtifactCache& cache);
+    /// Sets `parts`, unless what they need has not come.
     void freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                 Held& held) const;
-    void aim(const exhibit::PresentedWindow& window, Held& held) const;
+    void aim(const exhibit::PresentedWindow& window, const std::optional<scene::WorldBall>& states,
+             Held& held) const;
+    /// Patches show a frozen window in its level's own colours; other windows are drawn by their parts.
     void begin_patches(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
-                       const Held& held);
+                       Held& held);
     [[nodiscard]] const scene::WindowPatches* patches_for(std::uint32_t number,
                                                           const geometry::RigidTransform& table_from_window,
                                                           std::span<const glm::dvec3> eyes_m);
+    void set_samples(Held& held) const;
+    /// Moves the parts of a live window as those in the prop stand now.
+    void go_on(const residency::RunCells& cells, Held& held) const;
 
     settings::WindowSettings windows_;
     double frame_m_;
     glm::dvec3 prop_middle_m_;
+    scene::WindowSamples samples_;
+    bool shows_ = false; ///< a window is in the latest picture
     scene::TextureId white_ = scene::TextureId::None;
     std::array<Held, settings::max_windows + 1> held_{};
     std::vector<scene::FramePlan> spaces_; ///< one for each eye: of these, the windows
     std::array<scene::PlacedWindow, settings::max_windows> placed_{};
+    std::array<std::size_t, pack::max_states> layers_{};
     FrozenWindows frozen_;
 };
 

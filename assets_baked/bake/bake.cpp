@@ -128,6 +128,11 @@ public:
             layers.push_back(bake_layer(all, texels, source_, layer, reach));
         }
         light(all, texels, reach, colour, layers);
+        for (std::size_t k = 0; k < layers.size(); ++k) {
+            if (source_.mesh().layers[k].covers) {
+                cover(layers[k], colour, coverage, texels);
+            }
+        }
         TexturedLevels made{{}, finish(colour, texels, coverage), {}};
         for (const LayerColour& layer : layers) {
             made.layers.push_back(finish_layer(layer, texels));

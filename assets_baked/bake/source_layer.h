@@ -1,4 +1,4 @@
-/// Another look of a source's surface, which a torch shows: other pictures and factors in place of its materials.
+/// Another look of a source's surface, which a torch or a state shows: other pictures and factors in place of its materials.
 ///
 /// Colour   as of SourceMaterial, without the mesh's vertex colours. Alpha is how far the layer covers the artifact's own
 ///          colour; it cuts no hole.
@@ -28,6 +28,7 @@ struct SourceLayer {
     std::string name;
     bool lit = true;       ///< by the light that the artifact has
     bool has_alpha = true; ///< false: it covers all, whatever its pictures' alpha is
+    bool covers = false; ///< where it is transparent it gets the artifact's own colours, and then covers all
     struct Look {
         glm::vec4 base_colour{1.0F}; ///< linear factor
         int texture = -1;            ///< index into `textures`; -1: none

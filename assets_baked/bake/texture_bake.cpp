@@ -243,6 +243,18 @@ LayerColour bake_layer(const ChartedMesh& mesh, const image::Image<AtlasTexel>& 
     return made;
 }
 
+void cover(LayerColour& layer, const image::ImageFloat& colour, const image::Image<float>& coverage,
+           const image::Image<AtlasTexel>& texels) {
+    for (std::size_t k = 0; k < colour.texels.size(); ++k) {
+        if (texels.texels[k].triangle == nothing) {
+            continue;
+        }
+        layer.colour.texels[k] =
+            glm::mix(colour.texels[k], layer.colour.texels[k], std::min(1.0F, layer.alpha.texels[k]));
+        layer.alpha.texels[k] = coverage.texels.empty() ? 1.0F : coverage.texels[k];
+    }
+}
+
 image::Image8 finish_layer(const LayerColour& layer, const image::Image<AtlasTexel>& texels) {
     image::Image<float> has_colour = layer.alpha;
     image::Image<float> alpha = layer.alpha;

@@ -39,6 +39,9 @@ struct LayerColour {
 [[nodiscard]] LayerColour bake_layer(const ChartedMesh& mesh, const image::Image<AtlasTexel>& texels,
                                      const SourceScene& source, const SourceLayer& layer, float reach_box);
 /// As `finish`, with the layer's alpha.
+/// Where the layer is transparent it gets the colours of the artifact, and then covers all. `coverage`: as of finish.
+void cover(LayerColour& layer, const image::ImageFloat& colour, const image::Image<float>& coverage,
+           const image::Image<AtlasTexel>& texels);
 [[nodiscard]] image::Image8 finish_layer(const LayerColour& layer, const image::Image<AtlasTexel>& texels);
 
 /// Share of each texel that alpha MASK keeps, 0..1; below one half it is cut. Empty for a source without such

@@ -1,6 +1,7 @@
 #include "assets_baked/folder/artifact_file.h"
 
 #include "app/pack/container/limits.h"
+#include "app/pack/pack_states.h"
 #include "app/pack/pack_text.h"
 #include "app/pack/pack_torches.h"
 #include "app/settings/toml_file.h"
@@ -36,8 +37,8 @@ constexpr auto inner_keys = std::to_array<InnerKey>(
      {"point", "[[hotspots]]"},     {"labels", "[[hotspots]]"},   {"animation", "[[behaviours]]"},
      {"trigger", "[[behaviours]]"}, {"titles", "[[behaviours]]"}, {"picture", "[[torch]]"},
      {"film", "[[torch]]"},         {"layer", "[[torch]]"},       {"effect", "[[torch]]"},
-     {"up", "[placement]"},         {"turn_deg", "[placement]"},  {"scale", "[placement]"},
-     {"lift", "[placement]"}});
+     {"hide", "[[states]]"},        {"behaviour", "[[states]]"},  {"up", "[placement]"},
+     {"turn_deg", "[placement]"},   {"scale", "[placement]"},     {"lift", "[placement]"}});
 constexpr settings::Range coordinate{-1e9, 1e9, "units of the scan"};
 
 /// Reads a text without surrounding blanks; one of only blanks counts as left out.
@@ -140,6 +141,9 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
         "torch", file.torches, pack::max_contents,
         [&](settings::TableReader& item, ArtifactTorch& content) { read_torch(item, content, file.torches); },
         {});
+    table.tables(
+        "states", file.states, pack::max_states,
+        [&](settings::TableReader& item, ArtifactState& each) { read_state(item, each, file.states); }, {});
     for (pack::PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }
@@ -150,7 +154,8 @@ void refuse_single_tables(const toml::table& root, settings::ReadState& state) {
     for (const auto& [key, each] : {std::pair("texts", "language"),
                                     {"hotspots", "place"},
                                     {"behaviours", "movement"},
-                                    {"torch", "content"}}) {
+                                    {"torch", "content"},
+                                    {"states", "state"}}) {
         const toml::node* node = root.get(key);
         if (node != nullptr && node->is_table()) {
             state.refuse(
@@ -165,7 +170,7 @@ void refuse_single_tables(const toml::table& root, settings::ReadState& state) {
 void refuse_misspelt_tables(const toml::table& root, settings::ReadState& state) {
     for (const auto& [key, node] : root) {
         const std::string_view name = key.str().substr(0, 60);
-        for (const std::string_view known : {"texts", "hotspots", "behaviours", "torch"}) {
+        for (const std::string_view known : {"texts", "hotspots", "behaviours", "torch", "states"}) {
             const std::size_t apart = letters_apart(name, known);
             if (node.is_array_of_tables() && apart > 0 && 3 * apart <= known.size()) {
                 state.refuse("folder.unknown_table", static_cast<std::uint32_t>(key.source().begin.line),

@@ -8,6 +8,7 @@
 
 #include "app/pack/pack.h"
 #include "assets_baked/folder/artifact_behaviours.h"
+#include "assets_baked/folder/artifact_states.h"
 #include "assets_baked/folder/artifact_torches.h"
 #include "firmware_host/base/result.h"
 
@@ -53,6 +54,7 @@ struct ArtifactFile {
     std::vector<ArtifactHotspot> hotspots;
     std::vector<ArtifactBehaviour> behaviours;
     std::vector<ArtifactTorch> torches;
+    std::vector<ArtifactState> states;
 };
 
 /// `file` is the name in messages; paths in the text are relative to its folder.

@@ -155,6 +155,14 @@ void check_stages(settings::TableReader& table, const std::vector<ArtifactTorchS
 
 } // namespace
 
+void read_layer(settings::TableReader& table, ArtifactTorchStage& stage) {
+    read_path(table, "layer", stage.file);
+    table.require("torch_file.no_layer", !stage.file.empty(), "layer",
+                  "is empty; name a file in this folder");
+    stage.look.source = Source::Layer;
+    stage.place = table.place("layer");
+}
+
 void read_torch(settings::TableReader& table, ArtifactTorch& content,
                 const std::vector<ArtifactTorch>& before) {
     const bool is_short = std::any_of(stage_keys.begin(), stage_keys.end(),

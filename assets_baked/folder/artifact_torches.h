@@ -34,6 +34,9 @@ struct ArtifactTorch {
     std::vector<pack::PackLabel> titles;    ///< what the visitor is told, in each language
 };
 
+/// A stage that shows the layer `key` of another table; the key is there.
+void read_layer(settings::TableReader& table, ArtifactTorchStage& stage);
+
 /// `before`: the contents above this one.
 void read_torch(settings::TableReader& table, ArtifactTorch& content,
                 const std::vector<ArtifactTorch>& before);

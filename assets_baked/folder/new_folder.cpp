@@ -184,6 +184,15 @@ title = {title}
 #animation = "Lid"
 #trigger = "button"
 #titles = {{ en = "Turn the lid", de = "Den Deckel drehen" }}
+
+# The same artifact before, after, reconstructed, for windows on the table: without parts of the model, at the end of a behaviour, or in
+# other colours of the same surface.
+#[[states]]
+#name = "found"
+#hide = ["handle"]
+#behaviour = "open"
+#layer = "found.png"
+#titles = {{ en = "As found", de = "Fundzustand" }}
 )";
 
 /// The line with the file's value; without one, a commented line with an example.

@@ -34,7 +34,7 @@ void add_labels(LabelLists lists, const std::string& language, std::string (*key
 }
 
 std::vector<KeyedText> texts_of(const pack::PackCaption& caption, const pack::ScanRights& rights,
-                                LabelLists labels, LabelLists titles, LabelLists torches) {
+                                const SetLabels& labels) {
     std::vector<KeyedText> texts{{"title", caption.title, true},
                                  {"text", caption.text},
                                  {std::string(pack::attribution_key), pack::attribution_of(caption, rights)}};
@@ -42,9 +42,10 @@ std::vector<KeyedText> texts_of(const pack::PackCaption& caption, const pack::Sc
     for (std::size_t k = 0; k < portions.size() && portions.size() <= pack::max_text_portions; ++k) {
         texts.push_back({pack::portion_key(k), portions[k]});
     }
-    add_labels(labels, caption.language, pack::label_key, texts);
-    add_labels(titles, caption.language, pack::behaviour_key, texts);
-    add_labels(torches, caption.language, pack::torch_key, texts);
+    add_labels(labels.hotspots, caption.language, pack::label_key, texts);
+    add_labels(labels.behaviours, caption.language, pack::behaviour_key, texts);
+    add_labels(labels.torches, caption.language, pack::torch_key, texts);
+    add_labels(labels.states, caption.language, pack::state_key, texts);
     std::erase_if(texts, [](const KeyedText& each) { return each.text.empty(); });
     return texts;
 }
@@ -150,11 +151,10 @@ private:
 } // namespace
 
 SetArtifact set_artifact(std::span<const pack::PackCaption> captions, const pack::ScanRights& rights,
-                         LabelLists labels, LabelLists titles, LabelLists torches,
-                         const CaptionLimits& limits, const Shaper& shaper) {
+                         const SetLabels& labels, const CaptionLimits& limits, const Shaper& shaper) {
     SetArtifact set;
     for (const pack::PackCaption& caption : captions) {
-        const std::vector<KeyedText> texts = texts_of(caption, rights, labels, titles, torches);
+        const std::vector<KeyedText> texts = texts_of(caption, rights, labels);
         if (texts.empty()) {
             continue;
         }

@@ -1,5 +1,5 @@
 /// Sets the texts of an artifact in all their languages: captions, attribution, the labels of hotspots, the titles of
-/// behaviours and of a torch's contents, by the keys of app/pack/pack_texts.h.
+/// behaviours, of a torch's contents and of states, by the keys of app/pack/pack_texts.h.
 ///
 /// Losses are reported, a sentence each: a language whose typeface is missing, a text that is too long to be
 /// shaped, a letter that no typeface has, a word or a caption that fits nowhere. The plain texts are not
@@ -35,12 +35,13 @@ struct SetArtifact {
     std::vector<std::string> notes; ///< losses, a sentence each
 };
 
-/// `labels`: one list for each hotspot. `titles`: one for each behaviour. `torches`: one for each content.
+/// Words beside the captions, a list for each thing that they name.
+struct SetLabels {
+    std::vector<std::vector<pack::PackLabel>> hotspots, behaviours, torches, states;
+};
+
 [[nodiscard]] SetArtifact set_artifact(std::span<const pack::PackCaption> captions,
-                                       const pack::ScanRights& rights,
-                                       std::span<const std::vector<pack::PackLabel>> labels,
-                                       std::span<const std::vector<pack::PackLabel>> titles,
-                                       std::span<const std::vector<pack::PackLabel>> torches,
+                                       const pack::ScanRights& rights, const SetLabels& labels,
                                        const CaptionLimits& limits, const Shaper& shaper);
 
 } // namespace frustumscreen::texts

@@ -56,6 +56,7 @@ constexpr auto keys = std::to_array<std::string_view>({
     "advice.point_lamp",
     "advice.lamp_closer",
     "advice.pin_window",
+    "advice.turn_window",
     "stick.found",
     "stick.copying",
     "stick.take_out",

@@ -27,6 +27,7 @@ protected:
         ExhibitPlace place = walked::walked_place();
         for (AdviceLanguage& language : place.words) {
             language.texts.push_back({"pin_window", {{0.12, 0.02}}});
+            language.texts.push_back({"turn_window", {{0.12, 0.02}}});
         }
         place.buttons = buttons;
         place.windows.reset();
@@ -128,6 +129,26 @@ TEST_F(WindowExhibit, AVisitorIsToldOfTheButtonOnceUnlessItWasFound) {
             told_s += shown.advice && shown.advice->word.text == text ? to_seconds(frame) : 0.0;
         }
         EXPECT_NEAR(told_s, finds ? 0.0 : 10.0, 0.6);
+    }
+}
+
+TEST_F(WindowExhibit, AVisitorIsToldOnceWhatTheHeldButtonDoesUnlessItWasHeld) {
+    for (const bool holds : {false, true}) {
+        exhibit = Exhibit{Catalogue(2, CatalogueEntry{walked::languages, {3, {{0.14, 0.04}}}}), place(3),
+                          "en", now};
+        visit();
+        (void)run(frame, {Command::Window});
+        if (holds) {
+            (void)run(frame, {Command::HoldWindow});
+        }
+        const auto text = static_cast<std::size_t>(walked::keys.size() + 1);
+        double told_s = 0.0;
+        for (int k = 0; k < 2000; ++k) {
+            state.table_from_prop.translation.x = 0.03 * (k / 100 % 2); // somebody is there
+            const Presentation shown = run(frame);
+            told_s += shown.advice && shown.advice->word.text == text ? to_seconds(frame) : 0.0;
+        }
+        EXPECT_NEAR(told_s, holds ? 0.0 : 8.0, 0.6);
     }
 }
 

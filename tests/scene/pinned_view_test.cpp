@@ -1,6 +1,7 @@
 // A pinned view: for the eye that pins, the window shows what the prop showed; the world is behind the window and fits it.
 
 #include "app/scene/pinned_view.h"
+#include "tests/render/counted_new.h"
 #include "tests/render/ring_relief.h"
 #include "tests/render/synthetic_pack.h"
 
@@ -44,6 +45,71 @@ PinRequest any_request(std::mt19937& random) {
                      .width_m = 0.12 + 0.05 * u(random),
                      .depth_m = 0.12 + 0.05 * u(random)};
     return request;
+}
+
+/// Points of both balls lie in it, and it touches each of them on the far side.
+TEST(WorldBall, AroundTwoIsTheSmallest) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    for (int k = 0; k < 500; ++k) {
+        const WorldBall a{{u(random), u(random), u(random)}, 0.5 + 0.45 * u(random)};
+        const WorldBall b{{u(random), u(random), u(random)}, 0.5 + 0.45 * u(random)};
+        const WorldBall both = united(a, b);
+        double farthest = 0.0;
+        for (const WorldBall& ball : {a, b}) {
+            farthest = std::max(farthest, glm::distance(both.middle, ball.middle) + ball.radius);
+        }
+        EXPECT_NEAR(farthest, both.radius, 1e-12);
+        const double span = glm::distance(a.middle, b.middle) + a.radius + b.radius; // the longest chord
+        EXPECT_NEAR(both.radius, std::max({a.radius, b.radius, 0.5 * span}), 1e-12);
+    }
+}
+
+TEST(PinnedView, PinnedAgainIsTheSameAndAllocatesNothing) {
+    std::mt19937 random(12);
+    PinnedView view = pin_view(any_request(random)).value();
+    for (int k = 0; k < 50; ++k) {
+        const PinRequest request = any_request(random);
+        const long before = synthetic::allocations_so_far();
+        const bool pinned = pin_view(request, view);
+        const long after = synthetic::allocations_so_far();
+        if (synthetic::allocations_are_counted) {
+            EXPECT_EQ(after, before);
+        }
+        ASSERT_TRUE(pinned);
+        const PinnedView fresh = pin_view(request).value();
+        EXPECT_EQ(view.window_from_prop, fresh.window_from_prop);
+        EXPECT_EQ(view.surface.corners, fresh.surface.corners);
+        ASSERT_EQ(view.surface.faces.size(), 1U);
+        EXPECT_EQ(view.surface.faces[0].corners.size(), 4U);
+    }
+}
+
+/// Through the lens: the artifact turns about its middle and keeps its place; its size is a factor.
+TEST(PinnedView, TurnAndZoomAreAsExactArithmeticHasThem) {
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    for (int k = 0; k < 100; ++k) {
+        PinRequest request = any_request(random);
+        const Drawn plain(request);
+        const double turn = 3.0 * u(random);
+        request.turn = glm::angleAxis(turn, up);
+        const Drawn turned(request);
+        EXPECT_LT(glm::distance(turned.middle(), plain.middle()), 1e-12);
+        const glm::dvec3 to(0.03 * u(random), 0.03 * u(random), 0.03 * u(random));
+        const glm::dvec3 by(std::cos(turn) * to.x - std::sin(turn) * to.y,
+                            std::sin(turn) * to.x + std::cos(turn) * to.y, to.z);
+        EXPECT_LT(
+            glm::distance(turned.behind(request.world.middle + to), plain.behind(request.world.middle + by)),
+            1e-12);
+        request.zoom = 1.5 + u(random);
+        const Drawn zoomed(request);
+        EXPECT_NEAR(zoomed.radius() / plain.radius(), request.zoom, 1e-12);
+        const glm::dvec3 eye = request.eye_m;
+        EXPECT_NEAR(glm::dot(glm::normalize(zoomed.middle() - eye), glm::normalize(plain.middle() - eye)),
+                    1.0, 1e-12)
+            << "on the same ray";
+    }
 }
 
 TEST(PinnedView, IsTheSameTurnedAndScaledWorld) {

@@ -36,8 +36,8 @@ protected:
     [[nodiscard]] SetArtifact set(const std::vector<pack::PackCaption>& captions,
                                   const std::vector<std::vector<pack::PackLabel>>& labels = {},
                                   const std::vector<std::vector<pack::PackLabel>>& titles = {}) const {
-        return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, labels, titles, {}, limits_for_captions(),
-                            *shaper);
+        return set_artifact(captions, {"CC-BY-4.0", "Ann", {}}, {labels, titles, {}, {}},
+                            limits_for_captions(), *shaper);
     }
 };
 

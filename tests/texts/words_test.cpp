@@ -100,7 +100,7 @@ TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so
     EXPECT_EQ(
         (*collected)[1].notes[0],
         "the language 'nl' has no text for room_line, advice.slide_left, advice.slide_left_a_little, "
-        "advice.slide_right, advice.slide_right_a_little and 101 more; there the exhibit speaks 'de': write "
+        "advice.slide_right, advice.slide_right_a_little and 102 more; there the exhibit speaks 'de': write "
         "them into nl.toml");
 }
 

@@ -40,20 +40,21 @@ void set_texts(const BakeRequest& request, std::span<const pack::PackBehaviour> 
         words.lost.push_back(shaper.error().message);
         return;
     }
-    std::vector<std::vector<pack::PackLabel>> labels;
+    texts::SetLabels labels;
     for (const bake::GivenHotspot& hotspot : request.options.hotspots) {
-        labels.push_back(hotspot.labels);
+        labels.hotspots.push_back(hotspot.labels);
     }
-    std::vector<std::vector<pack::PackLabel>> titles;
     for (const pack::PackBehaviour& behaviour : behaviours) {
-        titles.push_back(behaviour.titles);
+        labels.behaviours.push_back(behaviour.titles);
     }
-    std::vector<std::vector<pack::PackLabel>> torches;
     for (const folder::ArtifactTorch& content : request.torches) {
-        torches.push_back(content.titles);
+        labels.torches.push_back(content.titles);
     }
-    texts::SetArtifact set = texts::set_artifact(request.captions, request.rights, labels, titles, torches,
-                                                 caption_limits(), *shaper);
+    for (const folder::ArtifactState& state : request.states) {
+        labels.states.push_back(state.titles);
+    }
+    texts::SetArtifact set =
+        texts::set_artifact(request.captions, request.rights, labels, caption_limits(), *shaper);
     words.set = std::move(set.languages);
     words.lost.insert(words.lost.end(), set.notes.begin(), set.notes.end());
 }

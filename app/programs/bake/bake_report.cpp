@@ -166,6 +166,9 @@ std::string cells_text(const BakeResult& result) {
     for (const std::string& each : result.torches) {
         text += fmt::format("  {:<8}{}\n", "torch", each);
     }
+    for (const std::string& each : result.states) {
+        text += fmt::format("  {:<8}{}\n", "state", each);
+    }
     for (const pack::PackBehaviour& each : result.world.behaviours) {
         text += fmt::format("  {:<8}'{}', {:.2g} s, by {}\n", "moves", each.behaviour.name,
                             each.behaviour.seconds, trigger_name(each.behaviour));
@@ -277,6 +280,7 @@ Json report_json(const BakeResult& result) {
                    {"taken", texts_of(result, bake::SourceNote::Kind::Taken)},
                    {"missing", result.missing},
                    {"torches", result.torches},
+                   {"states", result.states},
                    {"cells", cells_json(result)},
                    {"scan", json_of(result.scan)},
                    {"id", result.pack.id},

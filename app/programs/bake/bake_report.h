@@ -38,6 +38,7 @@ struct BakeResult {
     pack::PackWorld world; ///< empty: the pack has no cells
     ScanSummary scan;
     std::vector<std::string> torches; ///< what each content of a torch shows, a line each
+    std::vector<std::string> states;  ///< what each state is, a line each
     std::vector<bake::SourceNote> notes;
     std::vector<std::string> silent; ///< descriptions without speech, and why
     pack::ScanRights rights;
@@ -54,7 +55,7 @@ struct BakeResult {
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, processor_seconds, memory_bytes, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], taken: [], missing: [], torches: [], cells: {taken: none, nodes or found, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
+/// guessed: [], taken: [], missing: [], torches: [], states: [], cells: {taken: none, nodes or found, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen::programs

@@ -41,6 +41,9 @@ std::vector<Labelled> labelled_in(const folder::ArtifactFile& file) {
             all.push_back({fmt::format("torch[{}]", k), "titles", file.torches[k].titles});
         }
     }
+    for (std::size_t k = 0; k < file.states.size(); ++k) {
+        all.push_back({fmt::format("states[{}]", k), "titles", file.states[k].titles});
+    }
     return all;
 }
 
@@ -223,6 +226,11 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
             request.inputs.insert(request.inputs.end(), files.begin(), files.end());
         }
     }
+    for (const folder::ArtifactState& state : file.states) {
+        if (state.layer) {
+            request.inputs.push_back(state.layer->file);
+        }
+    }
     request.force = arguments.force;
     request.clean = arguments.clean;
     request.strict = arguments.strict;
@@ -231,6 +239,7 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.cells = arguments.cells;
     request.behaviours = file.behaviours;
     request.torches = file.torches;
+    request.states = file.states;
     TRY(request.options, options_of(arguments, file));
     request.id = file.id;
     request.usual_title = file.scan.stem().string();

@@ -8,6 +8,7 @@
 #include "app/pack/pack.h"
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/folder/artifact_behaviours.h"
+#include "assets_baked/folder/artifact_states.h"
 #include "assets_baked/folder/artifact_torches.h"
 #include "assets_baked/texts/speak_artifact.h"
 #include "firmware_host/base/result.h"
@@ -64,6 +65,7 @@ struct BakeRequest {
     std::string cells;              ///< as BakeArguments
     std::vector<folder::ArtifactBehaviour> behaviours;
     std::vector<folder::ArtifactTorch> torches;
+    std::vector<folder::ArtifactState> states;
     bake::BakeOptions options;
     std::string id;                          ///< empty: from the pack's name (scan_about.h)
     std::string usual_title;                 ///< title of a caption that has none of its own

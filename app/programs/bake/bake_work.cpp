@@ -10,6 +10,7 @@
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/put_cells.h"
 #include "app/programs/bake/scan_about.h"
+#include "app/programs/bake/states_of.h"
 #include "app/programs/bake/torch_contents.h"
 #include "app/programs/bake/used_machine.h"
 #include "app/programs/batch/content_hash.h"
@@ -133,7 +134,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     TRY(const bake::SourceMesh mesh,
         load_scan(written, [&](std::string_view step, double done) { progress(step, read * done); }));
     BakeResult result;
-    result.cells = choose_cells(written.cells, mesh, written.behaviours.size());
+    result.cells = choose_cells(written.cells, mesh, written.behaviours.size(), hides_parts(written));
     const double whole = result.cells.nodes || result.cells.found ? whole_share : 1.0;
     const auto begin_stages = [&](double begin, double end) {
         options.progress = [&progress, begin, end](std::string_view step, double done) {
@@ -144,6 +145,7 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     result.notes = mesh.notes;
     TRY(const std::vector<pack::PackBehaviour> behaviours,
         movements_of(written, mesh, result.cells, result.notes));
+    TRY(result.states, check_states(written, mesh, behaviours));
     TRY_VOID(check_output_is_no_input(written.output, mesh.side_files));
     options.unlit = options.unlit || mesh.is_unlit;
     CompletedRequest all = completed(written, mesh.about);
@@ -169,10 +171,13 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     result.scan = summary_of(mesh, measures);
     TRY(pack::Pack pack, at(request.scan.string(), bake::bake(mesh, options)));
     TRY_VOID(describe(pack, request));
+    std::vector<std::optional<std::size_t>> cell_of;
     if (result.cells.nodes) {
         begin_stages(std::lerp(read, 1.0, whole), 1.0);
-        TRY(result.world,
+        TRY(PutCells put,
             at(request.scan.string(), put_cells(pack, mesh, behaviours, options, result.notes)));
+        result.world = std::move(put.world);
+        cell_of = std::move(put.cell_of);
         number_titles(behaviours, result.world.behaviours, words.set);
         TRY_VOID(check_losses(result.notes, request));
     }
@@ -182,6 +187,8 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
         result.cells.why = std::move(found.why);
         result.world = std::move(found.world);
     }
+    TRY(std::vector<pack::PackState> states, states_of(request, mesh, result.world, cell_of));
+    TRY_VOID(at(request.scan.string(), pack::put_states(pack, std::move(states))));
     result.rights = request.rights;
     result.missing = pack::missing_in(pack, request.rights);
     if (request.output.extension() != ".fspack" && !request.watched) {

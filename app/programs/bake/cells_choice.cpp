@@ -20,12 +20,16 @@ std::size_t moved_parts(const bake::SourceMesh& mesh) {
 
 } // namespace
 
-CellsChoice choose_cells(const std::string& option, const bake::SourceMesh& mesh, std::size_t behaviours) {
+CellsChoice choose_cells(const std::string& option, const bake::SourceMesh& mesh, std::size_t behaviours,
+                         bool hides) {
     if (option == "none") {
         return {.why = "--cells none says so"};
     }
     if (behaviours > 0) {
         return {.nodes = true, .why = "artifact.toml has [[behaviours]]"};
+    }
+    if (hides) {
+        return {.nodes = true, .why = "a state of artifact.toml hides parts"};
     }
     if (!mesh.animations.empty()) {
         return {.nodes = true,

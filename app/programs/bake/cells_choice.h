@@ -16,8 +16,9 @@ struct CellsChoice {
     std::string why;    ///< "its animations move 2 of its 5 parts"
 };
 
-/// `option`: of --cells; empty: nodes if something moves. `behaviours`: how many the folder's file has.
+/// `option`: of --cells; empty: nodes if something moves. `behaviours`: how many the folder's file has; `hides`: a state of it
+/// hides parts.
 [[nodiscard]] CellsChoice choose_cells(const std::string& option, const bake::SourceMesh& mesh,
-                                       std::size_t behaviours);
+                                       std::size_t behaviours, bool hides = false);
 
 } // namespace frustumscreen::programs

@@ -99,6 +99,9 @@ std::string check_lines(const CheckedScan& scan) {
     for (const std::string& each : scan.torches) {
         text += line("torch", each);
     }
+    for (const std::string& each : scan.states) {
+        text += line("state", each);
+    }
     const std::vector<std::string> lost = texts_of(scan, bake::SourceNote::Kind::Lost);
     text += lost.empty() ? line("lost", "nothing") : std::string();
     for (const std::string& each : lost) {
@@ -146,6 +149,7 @@ nlohmann::ordered_json check_json(std::span<const CheckedScan> scans) {
             one["parts"] = scan.parts;
             one["animations"] = scan.animations;
             one["torches"] = scan.torches;
+            one["states"] = scan.states;
             one["lost"] = texts_of(scan, bake::SourceNote::Kind::Lost);
             one["guessed"] = texts_of(scan, bake::SourceNote::Kind::Guessed);
         }

@@ -4,6 +4,7 @@
 #include "app/programs/bake/behaviours_of.h"
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/scan_about.h"
+#include "app/programs/bake/states_of.h"
 #include "app/programs/bake/torch_contents.h"
 
 #include <algorithm>
@@ -24,8 +25,10 @@ Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
         checked.animations.push_back(animation.name);
     }
     TRY(const std::vector<pack::PackBehaviour> behaviours,
-        movements_of(request, mesh, choose_cells(request.cells, mesh, request.behaviours.size()),
+        movements_of(request, mesh,
+                     choose_cells(request.cells, mesh, request.behaviours.size(), hides_parts(request)),
                      checked.notes));
+    TRY(checked.states, check_states(request, mesh, behaviours));
     TRY(TorchContents torches, contents_of(request, mesh, Contents::Look));
     checked.torches = std::move(torches.told);
     checked.notes.insert(checked.notes.end(), torches.notes.begin(), torches.notes.end());

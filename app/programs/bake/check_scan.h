@@ -20,6 +20,7 @@ struct CheckedScan {
     std::vector<std::string> parts;      ///< names of those that can be cells; empty: one that does not move
     std::vector<std::string> animations; ///< names of those that move parts
     std::vector<std::string> torches;    ///< what each content of a torch shows, a line each
+    std::vector<std::string> states;     ///< what each state is, a line each
     std::vector<bake::SourceNote> notes;
 };
 

@@ -36,9 +36,9 @@ void keep_with_cells(std::vector<pack::PackBehaviour>& behaviours,
 
 } // namespace
 
-Result<pack::PackWorld> put_cells(pack::Pack& pack, const bake::SourceMesh& mesh,
-                                  std::vector<pack::PackBehaviour> behaviours,
-                                  const bake::BakeOptions& options, std::vector<bake::SourceNote>& notes) {
+Result<PutCells> put_cells(pack::Pack& pack, const bake::SourceMesh& mesh,
+                           std::vector<pack::PackBehaviour> behaviours, const bake::BakeOptions& options,
+                           std::vector<bake::SourceNote>& notes) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const bake::BoxFrame frame, bake::make_box_frame(mesh, {up, options.turn_deg, options.lift}));
     bake::WorldCells cells = bake::bake_cells(mesh, frame, options);
@@ -51,7 +51,7 @@ Result<pack::PackWorld> put_cells(pack::Pack& pack, const bake::SourceMesh& mesh
     keep_with_cells(behaviours, cells.cell_of);
     pack::PackWorld world{.cells = std::move(cells.cells), .behaviours = std::move(behaviours)};
     TRY_VOID(pack::put_world(pack, world, cells.geometry));
-    return world;
+    return PutCells{std::move(world), std::move(cells.cell_of)};
 }
 
 } // namespace frustumscreen::programs

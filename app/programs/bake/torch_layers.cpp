@@ -25,31 +25,58 @@ using folder::ArtifactTorchStage;
 
 constexpr std::uintmax_t max_picture_bytes = std::uintmax_t{1} << 30;
 
-bool is_same(const ArtifactTorchStage& a, const ArtifactTorchStage& b) {
-    return a.file == b.file && a.lit == b.lit;
-}
-
-/// One stage for each different layer.
-std::vector<const ArtifactTorchStage*> layers_in(const BakeRequest& request) {
-    std::vector<const ArtifactTorchStage*> layers;
-    for (const folder::ArtifactTorch& content : request.torches) {
-        for (const ArtifactTorchStage& stage : content.stages) {
-            const bool is_new = std::none_of(layers.begin(), layers.end(),
-                                             [&](const auto* each) { return is_same(*each, stage); });
-            if (stage.look.source == torch::Source::Layer && is_new) {
-                layers.push_back(&stage);
-            }
-        }
-    }
-    return layers;
-}
-
 bool is_model(const std::filesystem::path& file) {
     constexpr std::array<std::string_view, 5> endings{".glb", ".gltf", ".obj", ".ply", ".stl"};
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// A layer of a state covers the surface: where its picture is transparent it has the artifact's own colours.
+struct WrittenLayer {
+    const ArtifactTorchStage* stage = nullptr;
+    bool covers = false;
+};
+
+bool is_same(const WrittenLayer& a, const WrittenLayer& b) {
+    return a.stage->file == b.stage->file && a.stage->lit == b.stage->lit && a.covers == b.covers;
+}
+
+/// A model's layer covers all as it is.
+WrittenLayer layer_of_state(const ArtifactTorchStage& stage) {
+    return {&stage, !is_model(stage.file)};
+}
+
+/// Each different layer once.
+std::vector<WrittenLayer> layers_in(const BakeRequest& request) {
+    std::vector<WrittenLayer> layers;
+    const auto add = [&](const WrittenLayer& layer) {
+        if (std::none_of(layers.begin(), layers.end(),
+                         [&](const WrittenLayer& each) { return is_same(each, layer); })) {
+            layers.push_back(layer);
+        }
+    };
+    for (const folder::ArtifactTorch& content : request.torches) {
+        for (const ArtifactTorchStage& stage : content.stages) {
+            if (stage.look.source == torch::Source::Layer) {
+                add({&stage, false});
+            }
+        }
+    }
+    for (const folder::ArtifactState& state : request.states) {
+        if (state.layer) {
+            add(layer_of_state(*state.layer));
+        }
+    }
+    return layers;
+}
+
+std::size_t number_of(const BakeRequest& request, const WrittenLayer& layer) {
+    const std::vector<WrittenLayer> layers = layers_in(request);
+    const auto found = std::find_if(layers.begin(), layers.end(),
+                                    [&](const WrittenLayer& each) { return is_same(each, layer); });
+    return static_cast<std::size_t>(found - layers.begin());
 }
 
 tl::unexpected<Error> other_surface(const ArtifactTorchStage& stage, std::string_view what) {
@@ -183,13 +210,13 @@ Result<bake::SourceLayer> layer_of_picture(const ArtifactTorchStage& stage, cons
 } // namespace
 
 Result<void> add_layers(const BakeRequest& request, bake::SourceMesh& mesh) {
-    const std::vector<const ArtifactTorchStage*> layers = layers_in(request);
+    const std::vector<WrittenLayer> layers = layers_in(request);
     if (layers.size() > pack::max_layers) {
-        return bad_input("torch_layers.count", "{}: the torch has {} layers; allowed are {}",
-                         layers.back()->place, layers.size(), pack::max_layers);
+        return bad_input("torch_layers.count", "{}: torch and states have {} layers; allowed are {}",
+                         layers.back().stage->place, layers.size(), pack::max_layers);
     }
     const std::int64_t kept_texels = bake::useful_picture_texels(request.options.size);
-    for (const ArtifactTorchStage* stage : layers) {
+    for (const auto& [stage, covers] : layers) {
         TRY(bake::SourceLayer layer, is_model(stage->file) ? layer_of_model(*stage, mesh, kept_texels)
                                                            : layer_of_picture(*stage, mesh, kept_texels));
         layer.name = fmt::format("{}{}", printable(stage->file.filename().string(), 100),
@@ -200,16 +227,18 @@ Result<void> add_layers(const BakeRequest& request, bake::SourceMesh& mesh) {
             layer.name = fmt::format("{} {}", printable(stage->file.filename().string(), 100), number);
         }
         layer.lit = stage->lit;
+        layer.covers = covers;
         mesh.layers.push_back(std::move(layer));
     }
     return {};
 }
 
 std::size_t layer_of(const BakeRequest& request, const ArtifactTorchStage& stage) {
-    const std::vector<const ArtifactTorchStage*> layers = layers_in(request);
-    const auto found =
-        std::find_if(layers.begin(), layers.end(), [&](const auto* each) { return is_same(*each, stage); });
-    return static_cast<std::size_t>(found - layers.begin());
+    return number_of(request, {&stage, false});
+}
+
+std::size_t state_layer_of(const BakeRequest& request, const ArtifactTorchStage& stage) {
+    return number_of(request, layer_of_state(stage));
 }
 
 } // namespace frustumscreen::programs

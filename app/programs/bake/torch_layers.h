@@ -1,5 +1,5 @@
-/// The layers of an artifact's torch, as a look of the scan's surface: a picture in place of the scan's own, or a model of
-/// the same surface with other pictures.
+/// The layers of an artifact's torch and states, as a look of the scan's surface: a picture in place of the scan's own, or a
+/// model of the same surface with other pictures.
 ///
 /// Errors   one line that begins with the place in artifact.toml: another surface, a picture of another shape, a scan
 ///          whose pictures one picture cannot replace.
@@ -16,7 +16,9 @@ namespace frustumscreen::programs {
 
 /// Adds the request's layers to a scan as it was read, each once.
 [[nodiscard]] Result<void> add_layers(const BakeRequest& request, bake::SourceMesh& mesh);
-/// The layer that a stage shows, in the order of SourceMesh::layers.
+/// The layer that a torch's stage shows, in the order of SourceMesh::layers.
 [[nodiscard]] std::size_t layer_of(const BakeRequest& request, const folder::ArtifactTorchStage& stage);
+/// The one that a state has, which covers the whole surface.
+[[nodiscard]] std::size_t state_layer_of(const BakeRequest& request, const folder::ArtifactTorchStage& stage);
 
 } // namespace frustumscreen::programs

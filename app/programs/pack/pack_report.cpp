@@ -4,6 +4,7 @@
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/signed_pack.h"
+#include "app/programs/pack/state_report.h"
 #include "app/programs/pack/torch_report.h"
 #include "app/programs/pack/world_report.h"
 #include "firmware_host/base/json.h"
@@ -243,9 +244,9 @@ std::string title_line(const OpenedPack& opened) {
 }
 
 bool is_passed_over(const pack::PackSection& section) {
-    constexpr std::array<std::string_view, 9> known{"attribution",   "texts",       "sounds",
-                                                    "relief_blocks", "seen_errors", "seen_reliefs",
-                                                    "cells",         "behaviours",  "torches"};
+    constexpr std::array<std::string_view, 10> known{"attribution", "texts",        "sounds", "relief_blocks",
+                                                     "seen_errors", "seen_reliefs", "cells",  "behaviours",
+                                                     "torches",     "states"};
     return std::find(known.begin(), known.end(), section.name) == known.end();
 }
 
@@ -302,7 +303,8 @@ std::string description_text(const OpenedPack& opened, double mm) {
         }
         text += speech_text(pack, caption);
     }
-    text += hotspots_text(pack, mm) + world_text(pack, mm) + torches_text(pack, opened.parts);
+    text +=
+        hotspots_text(pack, mm) + world_text(pack, mm) + torches_text(pack, opened.parts) + states_text(pack);
     if (!pack.table_picture.texels.empty()) {
         text += fmt::format("  picture for the table: {} x {} texels\n", pack.table_picture.width,
                             pack.table_picture.height);
@@ -364,6 +366,7 @@ Json explain_json(const OpenedPack& opened, const settings::PropSettings& prop) 
     json["cells"] = cells_json(*opened.pack, json["metres_per_box"]);
     json["behaviours"] = behaviours_json(*opened.pack);
     json["torches"] = torches_json(*opened.pack, opened.parts);
+    json["states"] = states_json(*opened.pack);
     return json;
 }
 

@@ -13,6 +13,7 @@
 #include "app/pack/pack_magic.h"
 #include "app/pack/pack_reader.h"
 #include "app/pack/pack_relief.h"
+#include "app/pack/pack_states.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/pack_torches.h"
 #include "app/pack/pack_world.h"
@@ -96,6 +97,7 @@ Result<Signable> read_sound(OpenFile file) {
     TRY_VOID(pack::check_reliefs(*pack));
     TRY_VOID(pack::check_torches(*pack));
     TRY_VOID(pack::check_world(*pack));
+    TRY_VOID(without_value(pack::states_of(*pack)));
     TRY(const pack::ScanRights rights, pack::scan_rights(*pack));
     return Signable{std::move(manifest), std::move(before), pack::missing_in(*pack, rights)};
 }

@@ -4,6 +4,7 @@
 #include "app/pack/container/limits.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_relief.h"
+#include "app/pack/pack_states.h"
 #include "app/pack/pack_texts.h"
 #include "app/pack/pack_torches.h"
 #include "app/pack/pack_world.h"
@@ -69,6 +70,7 @@ Result<SoundPack> check(const std::string& file, std::span<const pack::TrustedKe
             .and_then([&] { return pack::check_reliefs(*read); })
             .and_then([&] { return pack::check_torches(*read); })
             .and_then([&] { return pack::check_world(*read); })
+            .and_then([&] { return without_value(pack::states_of(*read)); })
             .and_then([&] { return without_value(pack::scan_rights(*read)); });
     });
     TRY_VOID(at(file, good));

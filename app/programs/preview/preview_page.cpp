@@ -2,6 +2,7 @@
 
 #include "app/programs/preview/html_parts.h"
 #include "app/programs/preview/page_files.h"
+#include "app/programs/preview/states_part.h"
 #include "app/programs/preview/torch_part.h"
 #include "firmware_host/base/words_of_time.h"
 #include "firmware_host/base/xml_text.h"
@@ -334,7 +335,8 @@ std::string preview_page(const pack::PackDescription& pack, const PreviewFacts& 
         "cm wide; right the "
         "words for reading.</p>\n" +
         texts + hotspots_part(pack, media.languages) + behaviours_part(media.behaviours) +
-        torches_part(media.torches) + levels_part(pack, facts) + source_part(pack, facts) + "</main>\n";
+        torches_part(media.torches) + states_part(pack) + levels_part(pack, facts) +
+        source_part(pack, facts) + "</main>\n";
     page += fmt::format("<footer>Made by {} from {}. This page needs no network and no other file.</footer>\n"
                         "<script>{}</script>\n",
                         xml_text(facts.program), xml_text(facts.pack_name), page_script());

@@ -82,8 +82,12 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
                    "draw the picture of one eye alone, in full size, or of both in the settings' layout "
                    "(default: both where eye.stereo is on, otherwise the point between the eyes)")
         .one_of({"left", "right", "both"});
-    app.add_option("--behaviour", request.options.behaviour,
-                   "move the pack's cells by this behaviour; it begins with the first pose");
+    const auto behaviour =
+        app.add_option("--behaviour", request.options.behaviour,
+                       "move the pack's cells by this behaviour; it begins with the first pose");
+    app.add_option("--state", request.options.state,
+                   "draw the artifact in this state of the pack, in the prop and in windows")
+        .excludes(behaviour);
     app.add_option("--torch", request.options.torch,
                    "light the artifact with the torch, station 3 of the poses: white, for plain light, or a "
                    "content of the pack");
@@ -245,6 +249,7 @@ Result<void> render_screen(const Request& request, const settings::Settings& set
     say_unused("--pack", !request.pack.empty());
     say_unused("--technique", request.options.technique != "auto");
     say_unused("--behaviour", !request.options.behaviour.empty());
+    say_unused("--state", !request.options.state.empty());
     say_unused("--view", request.view != "projector");
     say_unused("--pin", !request.pins.empty());
     TRY_VOID(make_folder(request.out));
