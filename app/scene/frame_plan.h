@@ -53,6 +53,9 @@ struct PlacedLevel {
     /// Moves the placed box inside the prop: a cell's pose (world/cell.h). An affine transform.
     glm::dmat4 prop_from_placed{1.0};
     glm::vec3 light{1.0F}; ///< factor of its colours, linear light, red, green and blue
+    /// It reaches out of the prop: what lies before a face is cut off there, behind the faces it goes on. Only for triangles; if
+    /// one part does, all parts of a frame count as such, and no torch lights them.
+    bool beyond = false;
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief; }
     /// Of its box as placed, before `prop_from_placed`.
