@@ -37,7 +37,7 @@ constexpr auto inner_keys = std::to_array<InnerKey>(
      {"trigger", "[[behaviours]]"}, {"titles", "[[behaviours]]"}, {"picture", "[[torch]]"},
      {"film", "[[torch]]"},         {"layer", "[[torch]]"},       {"effect", "[[torch]]"},
      {"up", "[placement]"},         {"turn_deg", "[placement]"},  {"scale", "[placement]"},
-     {"lift", "[placement]"}});
+     {"lift", "[placement]"},       {"max_triangles", "[site]"}});
 constexpr settings::Range coordinate{-1e9, 1e9, "units of the scan"};
 
 /// Reads a text without surrounding blanks; one of only blanks counts as left out.
@@ -68,6 +68,16 @@ void read_placement(settings::TableReader& table, ArtifactFile& file) {
     }
     table.number("scale", file.scale, {pack::min_scale, pack::max_scale, ""});
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
+}
+
+/// An empty table makes a site, too.
+void read_site(settings::TableReader& table, std::optional<ArtifactSite>& site) {
+    ArtifactSite read;
+    const bool is_there = table.has("site");
+    table.table("site", {}, [&](settings::TableReader& inner) {
+        inner.integer("max_triangles", read.max_triangles, min_region_triangles, max_region_triangles, {});
+    });
+    site = is_there ? std::optional(read) : std::nullopt;
 }
 
 void read_caption(settings::TableReader& table, pack::PackCaption& caption, std::set<std::string>& languages,
@@ -124,6 +134,7 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
     table.flag("unlit", file.unlit, {});
     read_word(table, "prop", file.prop, prop_words);
     table.table("placement", {}, [&](settings::TableReader& inner) { read_placement(inner, file); });
+    read_site(table, file.site);
     std::set<std::string> languages;
     table.tables("texts", file.texts, pack::max_languages,
                  [&](settings::TableReader& item, pack::PackCaption& caption) {
@@ -140,6 +151,8 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
         "torch", file.torches, pack::max_contents,
         [&](settings::TableReader& item, ArtifactTorch& content) { read_torch(item, content, file.torches); },
         {});
+    table.require("folder.site_moves", !file.site || file.behaviours.empty(), "site",
+                  "stands beside [[behaviours]], but nothing of a site moves; leave one of them out");
     for (pack::PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }
