@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/render/block_upload.h"
 #include "app/render/read_back.h"
+#include "app/scene/beyond_prop.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
 #include "app/show/exhibit_place.h"
@@ -108,6 +109,12 @@ Result<void> ArtifactShow::upload_what_stays(const settings::Settings& settings)
 
 Result<void> ArtifactShow::upload_set(bool hotspots) {
     render::GpuStore& store = renderer_.store();
+    const bool has_site =
+        std::any_of(catalogue().begin(), catalogue().end(),
+                    [](const exhibit::CatalogueEntry& entry) { return !entry.site.regions.empty(); });
+    if (has_site && white_ == scene::TextureId::None) {
+        TRY(white_, store.upload(image::Image<std::uint8_t>(1, 1, 255)));
+    }
     if (hotspots ||
         std::any_of(catalogue().begin(), catalogue().end(),
                     [](const exhibit::CatalogueEntry& entry) { return !entry.hotspots.hotspots.empty(); })) {
@@ -394,6 +401,33 @@ std::span<const scene::PlacedTorch> ArtifactShow::throw_light(const exhibit::Pre
     return torches_->place(presentation, *contents);
 }
 
+void ArtifactShow::show_site(const exhibit::Presentation& presentation, residency::RunCells& cells) const {
+    cells.show_site(presentation.site.view);
+    const exhibit::SiteGround& site = catalogue()[presentation.artifact].site;
+    const std::optional<std::size_t>& marked = presentation.site.marked;
+    cells.mark(marked && *marked < site.regions.size() ? std::optional(site.regions[*marked]) : std::nullopt);
+}
+
+void ArtifactShow::place_site_map(const exhibit::Presentation& presentation) {
+    const exhibit::SiteGround& site = catalogue()[presentation.artifact].site;
+    if (!presentation.site_map || !presentation.site.view || white_ == scene::TextureId::None) {
+        return;
+    }
+    constexpr double ground_light = 0.12, shown_light = 0.8;
+    const geometry::Box base = scene::box_around(prop_);
+    const exhibit::SiteMap map =
+        exhibit::site_map(site, *presentation.site.view, presentation.site_map->rectangle.centre_m,
+                          presentation.table_from_prop, 0.5 * glm::dvec2(base.high - base.low));
+    const double light = caption_brightness_ * presentation.site_map->brightness;
+    const auto add = [&](const exhibit::SiteMap::Corners& corners, double brightness) {
+        on_table_.add({.corners_m = residency::flat_corners({corners[3], corners[2], corners[1], corners[0]}),
+                       .brightness = light * brightness,
+                       .texture = white_});
+    };
+    add(map.ground, ground_light);
+    add(map.shown, shown_light);
+}
+
 render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presentation& presentation,
                                       std::span<const glm::dvec3> eyes_m, const render::RenderTarget& target,
                                       render::Redraw redraw) {
@@ -429,6 +463,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     }
     place_hotspot(presentation);
     place_title(presentation);
+    place_site_map(presentation);
     place_signs(presentation);
     notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
                   renderer_.store(), on_table_);
@@ -452,8 +487,11 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
         }
         on_ = presentation.artifact;
     }
+    std::span<const scene::Part> marks;
     if (cells != nullptr) {
         play(now, presentation.behaviours, cells->player());
+        show_site(presentation, *cells);
+        marks = cells->marks();
     }
     if (cells != nullptr && cells->step(now, load_)) {
         const LentSpace lent(windows, cells->plans());
@@ -461,7 +499,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
                            target, redraw);
     }
     const LentSpace lent(windows, levels->plans());
-    return levels->draw(now, prop_, std::span(views).first(layout_.count), renderer_, target, redraw);
+    return levels->draw(now, prop_, std::span(views).first(layout_.count), renderer_, target, redraw, marks);
 }
 
 ShowUse ArtifactShow::use() const {

@@ -147,6 +147,10 @@ private:
     void place_hotspot(const exhibit::Presentation& presentation);
     /// Places the title of the behaviour that the button begins.
     void place_title(const exhibit::Presentation& presentation);
+    /// The part of a site that the prop shows, and the mark on its miniature.
+    void show_site(const exhibit::Presentation& presentation, residency::RunCells& cells) const;
+    /// Places the map of a site while the prop shows a part of it.
+    void place_site_map(const exhibit::Presentation& presentation);
     /// Places the sign of the guidance.
     void place_signs(const exhibit::Presentation& presentation);
     /// Steps what torches throw; returns what they throw now.

@@ -97,6 +97,7 @@ private:
     std::vector<scene::Part> parts_; ///< one for each of `shown_`
     std::vector<world::Cell> cells_;
     world::Behaviour behaviour_;
+    std::optional<world::SiteView> site_;
     std::optional<OfflineTorch> torch_;
     torch::Beam beam_;
     scene::TextureId torch_picture_ = scene::TextureId::None;

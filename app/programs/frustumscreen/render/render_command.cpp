@@ -9,6 +9,7 @@
 #include "app/programs/frustumscreen/render/pose_input.h"
 #include "app/programs/frustumscreen/render/screen_painter.h"
 #include "app/programs/frustumscreen/render/screen_pictures.h"
+#include "app/programs/frustumscreen/render/site_option.h"
 #include "app/scene/other_prop.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
@@ -42,6 +43,7 @@ struct Request {
     int height = 0;
     bool no_light = false;
     std::vector<std::string> pins;
+    std::string site; ///< empty: the whole
     show::OfflineOptions options;
 };
 
@@ -93,6 +95,12 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
         .check(is_pin())
         .allow_extra_args(false)
         .type_name("X,Y[,YAW_DEG]");
+    app.add_option(
+           "--site", request.site,
+           "draw a part of a site large: the place X,Y of its ground in the prop's middle, ZOOM times "
+           "larger than the miniature")
+        .check(is_site())
+        .type_name("X,Y,ZOOM");
     app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
     app.add_flag("--aov", request.options.hit_points,
                  "also write hit points (frame_00000.pfm; prop frame, metres)");
@@ -206,6 +214,7 @@ show::OfflineOptions options_for(const Request& request, EyeChoice eye, const se
     show::OfflineOptions options = request.options;
     options.both_eyes = eye == EyeChoice::Both;
     options.windows = request.pins.size();
+    options.site = request.site.empty() ? std::nullopt : std::optional(site_in(request.site));
     for (const tracking::TrackedState& frame : frames) {
         for (const glm::dvec3& eye_m : chosen_eyes(eye, frame, 1e-3 * settings.interocular_mm)) {
             options.views.push_back({frame.table_from_prop, eye_m});
@@ -239,6 +248,7 @@ Result<void> render_screen(const Request& request, const settings::Settings& set
     say_unused("--behaviour", !request.options.behaviour.empty());
     say_unused("--view", request.view != "projector");
     say_unused("--pin", !request.pins.empty());
+    say_unused("--site", !request.site.empty());
     TRY_VOID(make_folder(request.out));
     return write_screen_pictures(settings,
                                  {.eye = request.eye,
