@@ -9,6 +9,7 @@
 #include "app/exhibit/hotspot_labels.h"
 #include "app/exhibit/narration_sequencer.h"
 #include "app/exhibit/sentences.h"
+#include "app/exhibit/site_travel.h"
 #include "app/exhibit/table_browser.h"
 #include "app/exhibit/torch_lights.h"
 #include "app/exhibit/window_desk.h"
@@ -45,6 +46,7 @@ struct CatalogueEntry {
     /// The corners of the hull of the artifact in the prop (pack/pack_hull.h), prop frame; empty: unknown, and every
     /// face in view counts.
     std::vector<glm::dvec3> hull{};
+    SiteGround site{};               ///< without regions: the artifact is no site
     std::optional<ZoneFrame> zone{}; ///< where the artifact is seen whole; none: the place's zone
 };
 using Catalogue = std::vector<CatalogueEntry>;

@@ -11,7 +11,7 @@ Exhibit::Exhibit(Catalogue catalogue, const ExhibitPlace& place, const std::stri
       selection_(make_selection(catalogue_.all(), language, now)), staff_(place.staff_stays),
       table_(lay_out_catalogue(catalogue_.all(), place)), caption_(place.picture_m), labels_(place.picture_m),
       guide_(place.guidance), advice_(place.words, place.picture_m), title_(place.picture_m),
-      torches_(place.torch ? std::optional<TorchLights>(*place.torch) : std::nullopt),
+      torches_(place.torch ? std::optional<TorchLights>(*place.torch) : std::nullopt), map_(place.picture_m),
       windows_(place.windows ? std::optional<WindowDesk>(std::in_place, *place.windows, place.picture_m)
                              : std::nullopt) {}
 

@@ -16,6 +16,7 @@
 ///          (object_dwell.h). The caller says which object that is (note_object).
 /// Torch    while one is held, two buttons are its: "choose" changes what it throws, and "behaviour" leaves its light on the
 ///          object. Both do what they do otherwise while the prop rests on a picture or before an object.
+/// Sites    of an artifact that is a site the button "behaviour" brings a region into the prop, and the whole back (site_travel.h).
 /// Windows  a button pins what is seen through the prop onto the table (window_desk.h).
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
@@ -40,6 +41,7 @@
 #include "app/exhibit/selection.h"
 #include "app/exhibit/set_change.h"
 #include "app/exhibit/shown_catalogue.h"
+#include "app/exhibit/site_travel.h"
 #include "app/exhibit/staff_tool.h"
 #include "app/exhibit/states.h"
 #include "app/exhibit/stillness.h"
@@ -185,6 +187,16 @@ private:
     [[nodiscard]] std::optional<TitleIndex> content_title(const CatalogueEntry& entry, std::size_t artifact,
                                                           std::size_t language, glm::dvec2& size_m) const;
 
+    // Sites: exhibit_sites.cpp.
+    /// Takes the press of the button, which is the site's.
+    void travel(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
+                const DrawnPose& drawn, Presentation& presentation);
+    /// Beside everything else on the table, while the prop shows a part of a site.
+    void place_map(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
+                   const DrawnPose& drawn, Presentation& presentation);
+    [[nodiscard]] SiteTravel::Ray pointer(const tracking::TrackedState& tracked_state, const DrawnPose& drawn,
+                                          const Presentation& presentation) const;
+
     // Windows: exhibit_windows.cpp.
     void step_windows(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                       const DrawnPose& drawn, Presentation& presentation);
@@ -238,6 +250,8 @@ private:
     std::optional<TorchAim> torch_says_;               ///< what is wrong with the torch's aim
     bool next_content_ = false, leaves_light_ = false; ///< pressed in this step
 
+    SiteTravel site_;
+    BehaviourTitle map_;                ///< finds the map's place
     std::optional<WindowDesk> windows_; ///< none: none can be pinned
     WindowHistory history_;
     std::optional<MonotonicTime> visit_began_; ///< of the visitor who is there

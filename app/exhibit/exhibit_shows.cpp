@@ -30,7 +30,9 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
         presentation.caption->brightness *= std::max(0.0, 1.0 - 2.0 * presentation.advice->brightness);
     }
     presentation.hotspot = label(now, shown, tracked_state, drawn, presentation);
+    travel(now, tracked_state, shown, drawn, presentation);
     behave(now, tracked_state, shown, drawn, pressed, presentation);
+    place_map(now, tracked_state, shown, drawn, presentation);
     step_windows(now, tracked_state, shown, drawn, presentation);
     presentation.table = table_ ? &table_->presented() : nullptr;
     presentation.table_language = shown.language;
@@ -46,7 +48,8 @@ Presentation Exhibit::present(MonotonicTime now, const tracking::TrackedState& t
     const bool table_changes = table_ && table_->presented().changing;
     presentation.settled = !(windows_ && windows_->changing()) && !table_changes && !labels_.changing() &&
                            !shown.changing && !drawn.changing && !waits() && !narrator_.text().changing &&
-                           !title_.changing() && (opacity <= 0.0 || opacity >= 1.0);
+                           !title_.changing() && !site_.changing() && !map_.changing() &&
+                           (opacity <= 0.0 || opacity >= 1.0);
     dim_what_leaves(now, presentation);
     presentation.staff = state_ == State::Staff;
     presentation.staff_view = staff_.shown();
@@ -168,7 +171,7 @@ std::optional<PresentedHotspot> Exhibit::label(MonotonicTime now, const Shown& s
     return labels_.step(
         now, {.set = &entry->hotspots,
               .artifact = shown.artifact,
-              .hotspot = drawn.attracts ? std::nullopt : presentation.tells_of,
+              .hotspot = drawn.attracts || site_.is_away() ? std::nullopt : presentation.tells_of,
               .language = caption_for(shown.language, entry->languages),
               .brightness = shown.caption_brightness * drawn.brightness * (1.0 - advised),
               .prop = &place_.prop,
@@ -268,7 +271,8 @@ std::uint32_t Exhibit::lamps() const {
     const bool tells = told != nullptr && (state_ != State::Degraded || !told->portions.empty());
     lamps |= tells || rests ? 1U << settings::button_of(settings::Command::Choose) : 0U;
     const CatalogueEntry* const entry = catalogue_.captioned(selection_.artifact());
-    const bool behaves = entry != nullptr && BehaviourTriggers::next(entry->behaviours, 0);
+    const bool behaves = catalogue_.site(selection_.artifact()) != nullptr ||
+                         (entry != nullptr && BehaviourTriggers::next(entry->behaviours, 0));
     lamps |= behaves ? 1U << settings::button_of(settings::Command::Behaviour) : 0U;
     lamps |= torch_lamps();
     lamps |= windows_ && windows_->can_pin() ? 1U << settings::button_of(settings::Command::Window) : 0U;

@@ -13,7 +13,8 @@ void Exhibit::take_torch_presses() {
         next_content_ = true;
         presses_.end_choose();
     }
-    leaves_light_ = presses_.take_behaviour();
+    const bool on_site = catalogue_.site(selection_.artifact()) != nullptr; // the button is the site's
+    leaves_light_ = !on_site && presses_.take_behaviour();
 }
 
 void Exhibit::throw_light(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,

@@ -14,6 +14,7 @@
 #include "app/exhibit/placeholder.h"
 #include "app/exhibit/presented_windows.h"
 #include "app/exhibit/sentences.h"
+#include "app/exhibit/site_travel.h"
 #include "app/exhibit/staff_tool.h"
 #include "app/exhibit/states.h"
 #include "app/exhibit/table_browser.h"
@@ -77,6 +78,8 @@ struct Presentation {
     std::optional<PresentedTitle> title;      ///< what the button for behaviours does now
     PresentedTorches torches;                 ///< what torches throw onto the artifact
     PresentedWindows windows;                 ///< that lie on the table
+    PresentedSite site;                       ///< which part of a site the prop shows
+    std::optional<PresentedTitle> site_map;   ///< the place of a map that shows which
     std::optional<RoomObject> before;         ///< the object of the room that the prop has settled before
     const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
     std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit

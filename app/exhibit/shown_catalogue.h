@@ -44,6 +44,12 @@ public:
     [[nodiscard]] std::span<const glm::dvec3> hull(std::size_t artifact) const;
     /// Also of an artifact without captions; valid as long as the catalogue.
     [[nodiscard]] std::span<const TriggeredBehaviour> behaviours(std::size_t artifact) const;
+    /// Null: it is no site. Valid as long as the catalogue.
+    [[nodiscard]] const SiteGround* site(std::size_t artifact) const {
+        return artifact < entries_.size() && !entries_[artifact].site.regions.empty()
+                   ? &entries_[artifact].site
+                   : nullptr;
+    }
     /// How many contents a torch can throw onto it.
     [[nodiscard]] std::size_t contents(std::size_t artifact) const {
         return artifact < entries_.size() ? entries_[artifact].content_title_sizes_m.size() : 0;

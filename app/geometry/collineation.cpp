@@ -55,4 +55,35 @@ std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye
     return clip * (1.0 / greatest);
 }
 
+std::optional<glm::dmat4> collineation_behind(const Plane& plane, const glm::dvec3& eye,
+                                              const glm::dmat4& projector_clip_from_frame,
+                                              std::span<const glm::dvec3> corners) {
+    glm::dvec3 centre(0.0);
+    for (const glm::dvec3& corner : corners) {
+        centre += corner / static_cast<double>(corners.size());
+    }
+    const double eye_height = plane.distance(eye);
+    if (!(eye_height > min_sine * glm::distance(eye, centre))) {
+        return std::nullopt;
+    }
+    glm::dmat4 clip = projector_clip_from_frame * eye_onto_plane(plane, eye);
+    double least = std::numeric_limits<double>::infinity();
+    double greatest = 0.0;
+    for (const glm::dvec3& corner : corners) {
+        const double w = (clip * glm::dvec4(corner, 1.0)).w;
+        least = std::fmin(least, w);
+        greatest = std::fmax(greatest, w);
+    }
+    if (!(least > 0.0) || !std::isfinite(greatest)) {
+        return std::nullopt;
+    }
+    constexpr double below_far_end = 0.999;
+    const double k = below_far_end * 2.0 * least / eye_height;
+    const glm::dvec4 behind(-plane.normal, plane.offset);
+    for (int column = 0; column < 4; ++column) {
+        clip[column][2] = k * behind[column] - clip[column][3];
+    }
+    return clip * (1.0 / greatest);
+}
+
 } // namespace frustumscreen::geometry

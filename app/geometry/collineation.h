@@ -20,6 +20,7 @@
 #include <glm/glm.hpp>
 
 #include <optional>
+#include <span>
 
 namespace frustumscreen::geometry {
 
@@ -47,5 +48,14 @@ inline constexpr double min_sine = 1e-3;
 [[nodiscard]] std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye,
                                                      const glm::dmat4& projector_clip_from_frame,
                                                      const Box& box);
+
+/// As above, for a world that reaches out of the prop: what lies before the face is cut off, where the face's plane is the nearest
+/// depth, and no distance behind it is too far. `corners`: of the face, in the plane.
+///
+/// The depth row is k (d - n.X) - w: 0 <= (d - n.X) / w rises along an eye ray from 0 on the plane towards e / w(S) at infinity, and
+/// w is linear over the plane, so that k = 2 min w(S) / e over the corners keeps all of it below the far end.
+[[nodiscard]] std::optional<glm::dmat4> collineation_behind(const Plane& plane, const glm::dvec3& eye,
+                                                            const glm::dmat4& projector_clip_from_frame,
+                                                            std::span<const glm::dvec3> corners);
 
 } // namespace frustumscreen::geometry

@@ -8,6 +8,7 @@
 #include "app/pack/pack_reader.h"
 #include "app/pack/pack_relief.h"
 #include "app/pack/pack_sections.h"
+#include "app/pack/pack_site.h"
 #include "app/pack/pack_states.h"
 #include "app/pack/pack_torches.h"
 #include "app/pack/world_sections.h"
@@ -299,6 +300,7 @@ Result<void> put_world(Pack& pack, PackWorld world, std::span<const Pack> geomet
 
 Result<void> check_world(const Pack& pack) {
     TRY(const PackWorld world, world_of(pack));
+    TRY_VOID(without_value(site_regions_of(pack)));
     const std::vector<world::CellPose> poses = poses_of(world);
     for (std::size_t k = 0; k < world.cells.size(); ++k) {
         if (world.cells[k].cell.has_geometry) {

@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
+#include "app/pack/pack_site.h"
 #include "app/scene/other_prop.h"
 #include "app/scene/prop_outline.h"
 #include "app/scene/stereo.h"
@@ -37,6 +38,19 @@ scene::SceneRequest request_of(const settings::Settings& settings, const OpenerO
         request.captions = {exhibit::caption_for(settings.exhibit.language, languages)};
     }
     return request;
+}
+
+/// Finds the regions of a site and how large each is in the prop.
+Result<void> find_site(const settings::Settings& settings, KnownArtifact& artifact) {
+    const pack::PackDescription& pack = artifact.outline.description;
+    TRY(const std::vector<pack::SiteRegion> packed, pack::site_regions_of(pack));
+    std::vector<world::RegionBox> regions;
+    for (const pack::SiteRegion& region : packed) {
+        regions.push_back({region.low, region.high});
+    }
+    artifact.texts.entry.site = exhibit::site_ground(
+        std::move(regions), pack.box_size, artifact.plan.metres_per_box, settings::make_prop(settings.prop));
+    return {};
 }
 
 /// Finds the hull through which the prop's faces show the artifact, and the zone in which it is seen whole.
@@ -83,6 +97,7 @@ Result<KnownArtifact> open_pack(const settings::Settings& settings, const Opener
                                      .states = settings.windows.exist()},
                                     opened.plan.metres_per_box, text_style(settings),
                                     settings.sound.kind != settings::SoundKind::None));
+    TRY_VOID(find_site(settings, opened));
     TRY_VOID(find_whole_zone(settings, opened));
     return opened;
 }

@@ -1,6 +1,7 @@
 #include "app/residency/known_world.h"
 
 #include "app/pack/pack_relief.h"
+#include "app/pack/pack_site.h"
 #include "app/pack/pack_states.h"
 #include "app/scene/cell_plan.h"
 
@@ -73,17 +74,22 @@ Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& s
         settings.windows.exist() ? pack::states_of(pack) : std::vector<pack::PackState>());
     const bool hides = std::any_of(states.begin(), states.end(),
                                    [](const pack::PackState& state) { return !state.hidden.empty(); });
-    if (outline.behaviours.empty() && !outline.drawn_at_rest && !hides) {
+    TRY(const std::vector<pack::SiteRegion> regions, pack::site_regions_of(pack));
+    if (outline.behaviours.empty() && !outline.drawn_at_rest && !hides && regions.empty()) {
         return nullptr;
     }
-    return open_cells(settings, file, std::move(outline), whole, request);
+    return open_cells(settings, file, std::move(outline), whole, request, !regions.empty());
 }
 
 Result<std::shared_ptr<const KnownWorld>> open_cells(const settings::Settings& settings,
                                                      const std::filesystem::path& file,
                                                      pack::PackWorld outline, const scene::ScenePlan& whole,
-                                                     const scene::SceneRequest& request) {
+                                                     const scene::SceneRequest& request, bool is_site) {
     auto known = std::make_shared<KnownWorld>();
+    known->is_site = is_site;
+    known->tolerance_mm =
+        1e3 * settings.render.error_tolerance_px *
+        scene::pixel_on_prop_m(whole.prop, whole.projector, whole.table_from_projector.inverse());
     known->world = std::move(outline);
     const std::vector<world::CellPose> at_rest = world::poses_at_rest(pack::tree_of(known->world));
     for (std::size_t k = 0; k < at_rest.size(); ++k) {

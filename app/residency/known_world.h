@@ -28,10 +28,13 @@ struct KnownCell {
 struct KnownWorld {
     pack::PackWorld world; ///< without curves
     std::vector<KnownCell> drawn;
+    bool is_site = false;      ///< the cells are regions, which can be shown large
+    double tolerance_mm = 0.0; ///< of a site's regions at any zoom
 };
 
-/// Null: no cell is ever drawn, since the pack has no behaviours, its cells are not for rest or a technique is asked for that
-/// is not `auto`, and no window shows a state without some of them. `whole`: the artifact's plan; `request`: the one that it was made for.
+/// Null: no cell is ever drawn, since the pack has no behaviours, is no site, its cells are not for rest or a technique is asked for
+/// that is not `auto`, and no window shows a state without some of them. `whole`: the artifact's plan; `request`: the one that it
+/// was made for.
 [[nodiscard]] Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& settings,
                                                                    const std::filesystem::path& file,
                                                                    const pack::PackDescription& pack,
@@ -41,7 +44,7 @@ struct KnownWorld {
 /// As above for a known outline, also if it has no behaviours.
 [[nodiscard]] Result<std::shared_ptr<const KnownWorld>>
 open_cells(const settings::Settings& settings, const std::filesystem::path& file, pack::PackWorld outline,
-           const scene::ScenePlan& whole, const scene::SceneRequest& request);
+           const scene::ScenePlan& whole, const scene::SceneRequest& request, bool is_site = false);
 
 /// The needs of a renderer for the whole artifact and all of its cells, which fade into each other.
 [[nodiscard]] scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& whole);

@@ -122,6 +122,9 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
             made.data.push_back(std::move(level.data));
         }
     }
+    if (std::optional<scene::LevelData> mark = made.cells ? made.cells->take_mark_data() : std::nullopt) {
+        made.data.push_back(*std::move(mark));
+    }
     return made;
 }
 

@@ -1,6 +1,8 @@
 #include "app/residency/run_cells.h"
 
 #include "app/geometry/time_curves.h"
+#include "app/residency/site_mark.h"
+#include "app/scene/beyond_prop.h"
 #include "app/scene/cell_plan.h"
 #include "app/scene/torch_plan.h"
 
@@ -48,6 +50,17 @@ bool is_enough(const scene::ScenePlan& plan, const PreparedLevel& level) {
                        [&](const scene::QualityLevel& each) { return each.enough && each.shows_as(shown); });
 }
 
+/// The largest zoom at which a level of a site's region is within the tolerance; 0 for a relief, which cannot be cut off.
+double enough_to(const KnownWorld& known, const KnownCell& cell, const PreparedLevel& level) {
+    if (level.data.relief) {
+        return 0.0;
+    }
+    const pack::LevelError& error = cell.outline.levels[level.use.level].error;
+    const double error_mm =
+        1e3 * cell.plan.metres_per_box * scene::judged_error(error, scene::worst_of(level.seen));
+    return error_mm > 0.0 ? known.tolerance_mm / error_mm : std::numeric_limits<double>::infinity();
+}
+
 std::size_t indices_of(const PreparedLevel& level) {
     return level.triangles ? level.triangles->indices.size() : 0;
 }
@@ -58,9 +71,9 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                    std::span<const PreparedLevel> whole_levels, const PreparedCells& cells,
                    double deadline_ms)
     : metres_per_box_(whole.metres_per_box), deadline_ms_(deadline_ms),
-      drawn_at_rest_(known.world.drawn_at_rest), player_(pack::tree_of(world), behaviours_of(world)),
-      choice_(cells.options), rasterized_choice_(cells.options), offered_(cells.levels.size()),
-      rasterized_(cells.levels.size()) {
+      drawn_at_rest_(known.world.drawn_at_rest), is_site_(known.is_site),
+      player_(pack::tree_of(world), behaviours_of(world)), choice_(cells.options),
+      rasterized_choice_(cells.options), offered_(cells.levels.size()), rasterized_(cells.levels.size()) {
     std::size_t indices = 0; // of all that one picture may show
     for (const PreparedLevel& level : whole_levels) {
         indices = std::max(indices, indices_of(level));
@@ -88,7 +101,8 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                      1e3 * plan.metres_per_box * static_cast<double>(scene::worst_of(level.seen).mean_box),
                  .triangles = static_cast<double>(level.data.relief ? level.data.relief->blocks.size()
                                                                     : indices_of(level) / 6),
-                 .is_enough = is_enough(plan, level)});
+                 .is_enough = is_enough(plan, level),
+                 .enough_to = is_site_ ? enough_to(known, known.drawn[k], level) : 0.0});
             largest.front() = std::max(largest.front(), indices_of(level));
             std::sort(largest.begin(), largest.end());
         }
@@ -102,8 +116,17 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
             rasterized += is_rasterized(option) ? 1 : 0;
             enough = enough || (is_rasterized(option) && options_[option].is_enough);
         }
-        can_rasterize_all_ = can_rasterize_all_ && (drawn_at_rest_ ? enough : rasterized > 0);
+        can_rasterize_all_ = can_rasterize_all_ && (chooses_enough() ? enough : rasterized > 0);
         cells_[k].is_relief_alone = rasterized == cells.options[k];
+    }
+    if (is_site_) {
+        SiteMark mark = make_site_mark();
+        mark_data_ = std::move(mark.data);
+        mark_.triangles = std::move(mark.triangles);
+        mark_.samples = whole_levels.empty() ? 0 : whole_levels.front().samples;
+        marks_.reserve(1);
+        uses_.push_back(
+            {.triangles = mark_.triangles->indices.size() / 3, .planned_gpu_bytes = mark.planned_gpu_bytes});
     }
     parts_.reserve(2 * cells_.size() + 1);
     for (std::size_t eye = 0; eye < whole.eyes; ++eye) {
@@ -116,6 +139,11 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
 }
 
 void RunCells::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
+    if (place == options_.size()) {
+        mark_.drawable = drawable;
+        uses_[place].gpu_bytes = store.bytes(drawable);
+        return;
+    }
     options_[place].placed.drawable = drawable;
     uses_[place].gpu_bytes = store.bytes(drawable);
 }
@@ -135,6 +163,9 @@ Result<void> RunCells::add_layer(render::GpuStore& store, const ReadLayer& layer
 void RunCells::release(render::GpuStore& store) {
     for (const Option& option : options_) {
         store.release(option.placed.drawable);
+    }
+    if (is_site_) {
+        store.release(mark_.drawable);
     }
 }
 
@@ -167,17 +198,30 @@ double RunCells::load() const {
 }
 
 bool RunCells::fades() const {
-    return leaves_ || std::any_of(cells_.begin(), cells_.end(),
-                                  [](const Cell& cell) { return cell.coming.has_value(); });
+    return leaves_ || arrives_ || std::any_of(cells_.begin(), cells_.end(), [](const Cell& cell) {
+               return cell.coming.has_value();
+           });
+}
+
+void RunCells::mark(const std::optional<world::RegionBox>& region) {
+    marks_.clear();
+    if (region && is_site_) {
+        marks_.push_back({placed_mark(mark_, *region, metres_per_box_), std::nullopt});
+    }
 }
 
 bool RunCells::step(MonotonicTime now, double load) {
     poses_ = player_.step(now);
-    if (player_.moves() || drawn_at_rest_) {
+    if (player_.moves() || drawn_at_rest_ || site_) {
         if (!shows_) {
             is_new_ = true;
+            arrives_ = site_ ? std::optional(now) : std::nullopt;
             log_load_ = load > 0.0 && std::isfinite(load) ? std::log(load) : 0.0;
             timed_ = now;
+        }
+        if (leaves_ && site_) { // back from where the fade is
+            const Nanoseconds fade = Nanoseconds(std::llround(1e9 * level_fade_s));
+            arrives_ = now - std::max(fade - (now - *leaves_), Nanoseconds(0));
         }
         shows_ = true;
         leaves_.reset();
@@ -200,7 +244,13 @@ scene::CellOption RunCells::option_of(const Option& option, double pixels, doubl
         .relief = option.placed.relief != nullptr,
         .on_gpu = option.placed.on_gpu};
     const double ms = cost_.ms(time) - cost_.of(time).fixed_ms;
-    return {.error_mm = option.worst_mm * (all_pixels > 0.0 ? pixels / all_pixels : 1.0),
+    if (is_beyond() && pixels == 0.0) {
+        // No face shows it. When one does, it begins with its coarsest level.
+        constexpr double next_to_nothing_us = 1e-6;
+        return {.error_mm = 0.0, .cost_us = next_to_nothing_us * option.triangles};
+    }
+    const double zoom = site_ ? site_->zoom : 1.0;
+    return {.error_mm = zoom * option.worst_mm * (all_pixels > 0.0 ? pixels / all_pixels : 1.0),
             .cost_us = 1e3 * ms};
 }
 
@@ -223,16 +273,35 @@ void RunCells::offer_enough(std::size_t begin, std::size_t end,
     }
 }
 
-void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& view) {
+world::CellPose RunCells::pose_of(const Cell& cell) const {
+    world::CellPose pose = poses_[cell.number];
+    if (site_) {
+        pose.box_from_geometry = site_->matrix() * pose.box_from_geometry;
+    }
+    return pose;
+}
+
+void RunCells::judge_options() {
+    const double zoom = site_ ? site_->zoom : 1.0;
+    for (Option& option : options_) {
+        option.is_enough = zoom <= option.enough_to;
+    }
+}
+
+void RunCells::choose(MonotonicTime now, int samples, const geometry::PropShape& prop,
+                      const scene::PlanView& view) {
     double all_pixels = 0.0;
     for (Cell& cell : cells_) {
         scene::PlacedLevel placed = options_[cell.first + cell.shown].placed;
-        scene::set_pose(placed, poses_[cell.number], metres_per_box_);
-        cell.pixels = scene::pixels_of(placed, view);
+        scene::set_pose(placed, pose_of(cell), metres_per_box_);
+        cell.pixels = is_beyond() ? scene::pixels_beyond(placed, prop, view) : scene::pixels_of(placed, view);
         all_pixels += cell.pixels;
     }
-    if (leaves_) {
+    if (leaves_ || (arrives_ && !is_new_)) {
         return;
+    }
+    if (is_site_) {
+        judge_options();
     }
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
@@ -245,7 +314,7 @@ void RunCells::choose(MonotonicTime now, int samples, const scene::PlanView& vie
                 offered_[option].cost_us = never;
             }
         }
-        if (drawn_at_rest_) {
+        if (chooses_enough()) {
             offer_enough(cells_[k].first, end, offered_);
             offer_enough(cells_[k].first, end, rasterized_);
         }
@@ -291,7 +360,7 @@ void RunCells::choose_kind(MonotonicTime now, const scene::CellOption& mixed,
                            const scene::CellOption& rasterized, double budget_us) {
     const auto is_better = [this, budget_us](const scene::CellOption& a, const scene::CellOption& b,
                                              double clearly) {
-        if (drawn_at_rest_ || b.cost_us > budget_us) {
+        if (chooses_enough() || b.cost_us > budget_us) {
             return (b.cost_us > budget_us && a.cost_us <= budget_us) || a.cost_us < clearly * b.cost_us;
         }
         return a.cost_us <= clearly * budget_us && a.error_mm < clearly * b.error_mm;
@@ -315,10 +384,11 @@ void RunCells::add_part(const Cell& cell, std::size_t option, int samples,
                         const std::optional<scene::Dither>& dither) {
     scene::Part& part = parts_.emplace_back(scene::Part{options_[cell.first + option].placed, dither});
     part.level.samples = samples;
-    scene::set_pose(part.level, poses_[cell.number], metres_per_box_);
+    scene::set_pose(part.level, pose_of(cell), metres_per_box_);
+    part.level.beyond = is_beyond();
 }
 
-/// While the picture fades back to the whole, no cell fades.
+/// While the picture fades between the whole and the cells, no cell fades.
 void RunCells::add_parts(MonotonicTime now, const scene::PlacedLevel& whole) {
     parts_.clear();
     std::optional<scene::Dither> of_all;
@@ -326,6 +396,12 @@ void RunCells::add_parts(MonotonicTime now, const scene::PlacedLevel& whole) {
         const auto share = static_cast<float>(geometry::ramp(to_seconds(now - *leaves_), level_fade_s));
         parts_.push_back({whole, scene::Dither{share, false}});
         of_all = scene::Dither{share, true};
+    } else if (arrives_ && to_seconds(now - *arrives_) < level_fade_s && !is_beyond()) {
+        const auto share = static_cast<float>(geometry::ramp(to_seconds(now - *arrives_), level_fade_s));
+        parts_.push_back({whole, scene::Dither{share, true}});
+        of_all = scene::Dither{share, false};
+    } else {
+        arrives_.reset();
     }
     for (Cell& cell : cells_) {
         const double share =
@@ -333,6 +409,9 @@ void RunCells::add_parts(MonotonicTime now, const scene::PlacedLevel& whole) {
         if (share >= 1.0) {
             cell.shown = *cell.coming;
             cell.coming.reset();
+        }
+        if (is_beyond() && cell.pixels == 0.0) {
+            continue;
         }
         if (cell.coming) {
             const auto arrived = static_cast<float>(share);
@@ -349,7 +428,7 @@ render::DrawResult RunCells::draw(MonotonicTime now, const scene::PlacedLevel& w
                                   render::Renderer& renderer, const render::RenderTarget& target,
                                   render::Redraw redraw) {
     assert(views.size() == plans_.size());
-    choose(now, whole.samples, views.front());
+    choose(now, whole.samples, prop, views.front());
     add_parts(now, whole);
     for (std::size_t eye = 0; eye < plans_.size(); ++eye) {
         scene::plan_frame(prop, parts_, views[eye], plans_[eye]);
@@ -370,7 +449,8 @@ std::optional<scene::ErrorEstimate> RunCells::estimate(const geometry::PropShape
         for (const Cell& cell : cells_) {
             const Option& option = options_[cell.first + cell.coming.value_or(cell.shown)];
             scene::PlacedLevel placed = option.placed;
-            scene::set_pose(placed, poses_[cell.number], metres_per_box_);
+            scene::set_pose(placed, pose_of(cell), metres_per_box_);
+            placed.beyond = is_beyond();
             const auto own = scene::estimate_error(option.seen, prop, placed, views[eye], plans_[eye]);
             if (own) {
                 sum.mean_mm += cell.pixels * own->mean_mm;

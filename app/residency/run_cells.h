@@ -12,6 +12,9 @@
 ///          and the better one is taken; only fades, and cells that have nothing else, mix them. Cells that are drawn at rest follow the
 ///          governor's first rule: a cell that has levels within the tolerance is drawn as the quickest of these, or, where
 ///          time is short, as a quicker one that errs more.
+/// Site     of a site (pack_site.h) a part can be shown large (site_view.h). Then the cells are drawn, cut off by the prop's faces;
+///          those that no face shows are left out. An error of a cell grows with the zoom, so finer levels come by the rule of cells that
+///          are drawn at rest. The picture fades from the whole to the cells; the caller leaves the zoom at 1 for as long.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
 /// Errors   none.
@@ -27,12 +30,14 @@
 #include "app/scene/frame_time_model.h"
 #include "app/scene/pinned_view.h"
 #include "app/world/player.h"
+#include "app/world/site_view.h"
 #include "firmware_host/base/time.h"
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen::residency {
@@ -64,6 +69,16 @@ public:
     void enter(MonotonicTime now) { player_.end_all(now); }
 
     [[nodiscard]] world::Player& player() { return player_; }
+    /// The part of a site that the next frames show; none, as at the beginning: the whole. Not for other artifacts.
+    void show_site(const std::optional<world::SiteView>& view) { site_ = view; }
+    /// Marks a region of the miniature for the next frames; none: no mark.
+    void mark(const std::optional<world::RegionBox>& region);
+    /// What RunLevels::draw draws beside the whole.
+    [[nodiscard]] std::span<const scene::Part> marks() const { return marks_; }
+    /// The mark of a site, to upload after the levels of the cells; none: it is no site.
+    [[nodiscard]] std::optional<scene::LevelData> take_mark_data() {
+        return std::exchange(mark_data_, std::nullopt);
+    }
     /// Once a frame: moves the cells. True: `draw` draws this frame, otherwise the whole artifact's own RunLevels. `load`: of
     /// the GPU (see Governor), when the cells begin to show.
     [[nodiscard]] bool step(MonotonicTime now, double load);
@@ -110,7 +125,8 @@ private:
         scene::PlacedLevel placed;
         double worst_mm = 0.0;
         double triangles = 0.0; ///< or blocks
-        bool is_enough = false; ///< within the tolerance
+        bool is_enough = false; ///< within the tolerance, at the zoom of this frame
+        double enough_to = 0.0; ///< of a site: the largest zoom at which it is
     };
     struct Cell {
         std::size_t number = 0;       ///< index into the player's cells
@@ -128,7 +144,14 @@ private:
     /// Makes infinite the time of those options from `begin` to `end`, one cell's, that are neither as quick as its quickest
     /// one within the tolerance nor save time by a larger error.
     void offer_enough(std::size_t begin, std::size_t end, std::vector<scene::CellOption>& offered) const;
-    void choose(MonotonicTime now, int samples, const scene::PlanView& view);
+    void choose(MonotonicTime now, int samples, const geometry::PropShape& prop, const scene::PlanView& view);
+    /// A cell's pose in this frame, in the site's view.
+    [[nodiscard]] world::CellPose pose_of(const Cell& cell) const;
+    /// True if the zoom is not 1: the world reaches out of the prop.
+    [[nodiscard]] bool is_beyond() const { return site_ && *site_ != world::SiteView{}; }
+    [[nodiscard]] bool chooses_enough() const { return drawn_at_rest_ || is_site_; }
+    /// Sets which options of a site are within the tolerance at its zoom.
+    void judge_options();
     /// The sums over all cells.
     [[nodiscard]] scene::CellOption sum(std::span<const std::size_t> chosen,
                                         const std::vector<scene::CellOption>& offered) const;
@@ -147,6 +170,11 @@ private:
     double metres_per_box_; ///< of the whole artifact
     double deadline_ms_;
     bool drawn_at_rest_;
+    bool is_site_;
+    std::optional<world::SiteView> site_;
+    std::optional<scene::LevelData> mark_data_;
+    scene::PlacedLevel mark_;
+    std::vector<scene::Part> marks_;
     world::Player player_;
     std::span<const world::CellPose> poses_; ///< of the latest step
     std::vector<LevelUse> uses_;
@@ -168,8 +196,9 @@ private:
     std::optional<scene::WorldBall> states_ball_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
     bool shows_ = false;
-    bool is_new_ = false;                 ///< no picture of cells was drawn since they began to show
-    std::optional<MonotonicTime> leaves_; ///< since when the picture fades back to the whole
+    bool is_new_ = false;                  ///< no picture of cells was drawn since they began to show
+    std::optional<MonotonicTime> leaves_;  ///< since when the picture fades back to the whole
+    std::optional<MonotonicTime> arrives_; ///< since when it fades from the whole to a site's cells
     std::optional<scene::ErrorEstimate> error_;
 };
 

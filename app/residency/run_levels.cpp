@@ -133,10 +133,13 @@ RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double
                                               .relief = level.data.relief,
                                               .on_gpu = level.data.on_gpu}});
     }
+    constexpr std::size_t max_parts = 2 + max_marks;
+    parts_.reserve(max_parts);
     for (std::size_t eye = 0; eye < plan.eyes; ++eye) {
-        plans_.push_back(scene::make_plan(plan.prop, indices, 2));
+        plans_.push_back(scene::make_plan(plan.prop, indices + max_mark_indices, max_parts));
         if (!plan.needs.torches.empty()) {
-            scene::make_torch_space(plans_.back(), plan.prop.faces.size(), indices, 2);
+            scene::make_torch_space(plans_.back(), plan.prop.faces.size(), indices + max_mark_indices,
+                                    max_parts);
         }
     }
 }
@@ -389,17 +392,23 @@ std::optional<scene::ErrorEstimate> RunLevels::estimate(const geometry::PropShap
 
 render::DrawResult RunLevels::draw(MonotonicTime now, const geometry::PropShape& prop,
                                    std::span<const scene::PlanView> views, render::Renderer& renderer,
-                                   const render::RenderTarget& target, render::Redraw redraw) {
+                                   const render::RenderTarget& target, render::Redraw redraw,
+                                   std::span<const scene::Part> marks) {
     const double share = coming_ ? geometry::ramp(to_seconds(now - fade_start_), level_fade_s) : 0.0;
     if (share >= 1.0) {
         shown_ = *coming_;
         coming_.reset();
     }
+    parts_.clear();
     if (coming_) {
-        plan(prop, scene::fade(placed(shown_), placed(*coming_), share), views);
+        const std::array<scene::Part, 2> fading = scene::fade(placed(shown_), placed(*coming_), share);
+        parts_.assign(fading.begin(), fading.end());
     } else {
-        plan(prop, whole(placed(shown_)), views);
+        parts_.push_back({placed(shown_), std::nullopt});
     }
+    parts_.insert(parts_.end(), marks.begin(),
+                  marks.begin() + static_cast<std::ptrdiff_t>(std::min(marks.size(), max_marks)));
+    plan(prop, parts_, views);
     const render::DrawResult result = renderer.draw(plans_, target, redraw);
     if (result.drawn) { // otherwise the earlier picture and its error stay
         error_ = estimate(prop, views);

@@ -83,6 +83,8 @@ struct PreparedLevel {
 
 class RunLevels {
 public:
+    static constexpr std::size_t max_marks = 1, max_mark_indices = 1000;
+
     /// The plan's levels in its order, then its reliefs, once for each way that a quality level draws them.
     /// Drawing requires a drawable for each. Needs no context.
     RunLevels(std::string technique, const scene::ScenePlan& plan, double deadline_ms,
@@ -126,10 +128,12 @@ public:
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return governor_.load(); }
 
-    /// `views`: one for each eye of the scene plan.
+    /// `views`: one for each eye of the scene plan. `marks`: polygons drawn with the level, at most `max_marks` of
+    /// `max_mark_indices` together; their error does not count.
     [[nodiscard]] render::DrawResult draw(MonotonicTime now, const geometry::PropShape& prop,
                                           std::span<const scene::PlanView> views, render::Renderer& renderer,
-                                          const render::RenderTarget& target, render::Redraw redraw);
+                                          const render::RenderTarget& target, render::Redraw redraw,
+                                          std::span<const scene::Part> marks = {});
     /// The plan of each eye's picture, to lend it room for windows.
     [[nodiscard]] std::span<scene::FramePlan> plans() { return plans_; }
     /// The level that `draw` draws, without its fade.
@@ -173,6 +177,7 @@ private:
     double deadline_ms_;
     scene::Governor governor_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
+    std::vector<scene::Part> parts_;      ///< of this frame
     std::size_t shown_ = 0;               ///< index into `levels_`
     std::optional<std::size_t> coming_;
     std::optional<scene::ErrorEstimate> error_;

@@ -3,6 +3,7 @@
 #include "app/geometry/collineation.h"
 #include "app/geometry/corner_fan.h"
 #include "app/geometry/inner_point.h"
+#include "app/scene/beyond_prop.h"
 #include "app/scene/face_view.h"
 #include "app/scene/pixel_density.h"
 #include "app/scene/plan_hash.h"
@@ -29,8 +30,9 @@ struct Shared {
     glm::dmat4 clip_from_prop{1.0};
     glm::dvec3 projector_in_prop{0.0};
     geometry::RigidTransform prop_from_table = {};
-    geometry::Box box = {}; ///< around all parts, prop frame
+    geometry::Box box = {}; ///< around all parts, prop frame; of parts that reach out of the prop, the prop's
     bool one_part = true;
+    bool beyond = false; ///< PlacedLevel::beyond, of a part
 
     [[nodiscard]] glm::dvec3 eye(std::size_t face) const {
         const std::size_t which = view.eyes_m.size() == 1 ? 0 : std::min(face, view.eyes_m.size() - 1);
@@ -75,6 +77,10 @@ Shared shared_by_all(const geometry::PropShape& prop, std::span<const Part> part
         shared.box =
             k == 0 ? box
                    : geometry::Box{glm::min(shared.box.low, box.low), glm::max(shared.box.high, box.high)};
+        shared.beyond = shared.beyond || parts[k].level.beyond;
+    }
+    if (shared.beyond) {
+        shared.box = box_around(prop);
     }
     return shared;
 }
@@ -88,7 +94,9 @@ std::optional<FaceView> look_through(std::size_t index, const Shared& shared) {
     }
     const glm::dvec3 eye = shared.eye(index);
     const std::optional<glm::dmat4> clip =
-        geometry::collineation(face.plane, eye, shared.clip_from_prop, shared.box);
+        shared.beyond ? geometry::collineation_behind(face.plane, eye, shared.clip_from_prop,
+                                                      std::span(face.corners.data(), face.corners.size()))
+                      : geometry::collineation(face.plane, eye, shared.clip_from_prop, shared.box);
     if (!clip) {
         return std::nullopt;
     }
@@ -185,10 +193,16 @@ std::optional<Draw> draw_part(const Part& part, std::size_t index, const FaceVie
     const glm::dmat4 placed_from_prop = glm::affineInverse(level.prop_from_placed);
     plan.front.update(*level.triangles,
                       glm::dvec3(placed_from_prop * glm::dvec4(through.eye_in_prop, 1.0)) / scale);
-    draw.bounds = show_triangles(
-        *level.triangles,
-        volume_of(face, through.eye_in_prop, placed_from_prop, scale, clip_from_box, shared.view.projector),
-        glm::mat4(clip_from_box), through.bounds, plan, draw.range);
+    FaceVolume volume =
+        volume_of(face, through.eye_in_prop, placed_from_prop, scale, clip_from_box, shared.view.projector);
+    if (shared.beyond) {
+        volume.add(half_space_behind(face, level.prop_from_box()));
+        draw.pixels_per_box = pixels_per_unit(
+            clip_from_box, nearest_in_box(level, placed_from_prop, geometry::inner_point(face)),
+            shared.view.projector);
+    }
+    draw.bounds =
+        show_triangles(*level.triangles, volume, glm::mat4(clip_from_box), through.bounds, plan, draw.range);
     return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
 }
 
@@ -423,7 +437,9 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
     if (view.light) {
         compensate(shared, *view.light, open, plan);
     }
-    plan_torches(parts, view, shared.box, plan);
+    PlanView lit = view;
+    lit.torches = shared.beyond ? std::span<const PlacedTorch>() : view.torches;
+    plan_torches(parts, lit, shared.box, plan);
     plan_windows(prop, view, plan);
     plan.prop_hash = hash_of_prop(plan);
     plan.hash = hash_of(plan);

@@ -62,6 +62,9 @@ struct PlacedLevel {
     /// Drawn instead of the triangles, rasterized on the processor: points in the prop's frame, around which the box lies. They
     /// live as long as the frame's plan.
     const ldi::PointPatch* points = nullptr;
+    /// It reaches out of the prop: what lies before a face is cut off there, behind the faces it goes on. Only for triangles; if
+    /// one part does, all parts of a frame count as such, and no torch lights them.
+    bool beyond = false;
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief && points == nullptr; }
     /// Of its box as placed, before `prop_from_placed`.

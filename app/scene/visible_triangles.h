@@ -49,8 +49,8 @@ void find_extents(LevelTriangles& level);
 /// The volume that one face shows: the half spaces a.X + d >= 0 (a unit) of the face's pyramid and the
 /// picture's four edges.
 struct FaceVolume {
-    /// The face's edges, the plane before the projector and the picture's edges.
-    static constexpr std::size_t max_half_spaces = geometry::max_face_corners + 5;
+    /// The face's edges, the plane before the projector, the picture's edges and the face's own plane.
+    static constexpr std::size_t max_half_spaces = geometry::max_face_corners + 6;
     std::array<glm::dvec4, max_half_spaces> half_spaces{};
     std::size_t count = 0;
 

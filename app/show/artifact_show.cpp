@@ -3,6 +3,7 @@
 #include "app/exhibit/languages.h"
 #include "app/render/block_upload.h"
 #include "app/render/read_back.h"
+#include "app/scene/beyond_prop.h"
 #include "app/scene/window_patches.h"
 #include "app/settings/guided.h"
 #include "app/settings/lit_zone.h"
@@ -112,6 +113,12 @@ Result<void> ArtifactShow::upload_what_stays(const settings::Settings& settings)
 
 Result<void> ArtifactShow::upload_set(bool hotspots) {
     render::GpuStore& store = renderer_.store();
+    const bool has_site =
+        std::any_of(catalogue().begin(), catalogue().end(),
+                    [](const exhibit::CatalogueEntry& entry) { return !entry.site.regions.empty(); });
+    if (has_site && white_ == scene::TextureId::None) {
+        TRY(white_, store.upload(image::Image<std::uint8_t>(1, 1, 255)));
+    }
     if (hotspots ||
         std::any_of(catalogue().begin(), catalogue().end(),
                     [](const exhibit::CatalogueEntry& entry) { return !entry.hotspots.hotspots.empty(); })) {
@@ -422,7 +429,35 @@ bool ArtifactShow::move_cells(MonotonicTime now, const exhibit::Presentation& pr
         return false;
     }
     play(now, presentation.behaviours, cells->player());
+    show_site(presentation, *cells);
     return cells->step(now, load_);
+}
+
+void ArtifactShow::show_site(const exhibit::Presentation& presentation, residency::RunCells& cells) const {
+    cells.show_site(presentation.site.view);
+    const exhibit::SiteGround& site = catalogue()[presentation.artifact].site;
+    const std::optional<std::size_t>& marked = presentation.site.marked;
+    cells.mark(marked && *marked < site.regions.size() ? std::optional(site.regions[*marked]) : std::nullopt);
+}
+
+void ArtifactShow::place_site_map(const exhibit::Presentation& presentation) {
+    const exhibit::SiteGround& site = catalogue()[presentation.artifact].site;
+    if (!presentation.site_map || !presentation.site.view || white_ == scene::TextureId::None) {
+        return;
+    }
+    constexpr double ground_light = 0.12, shown_light = 0.8;
+    const geometry::Box base = scene::box_around(prop_);
+    const exhibit::SiteMap map =
+        exhibit::site_map(site, *presentation.site.view, presentation.site_map->rectangle.centre_m,
+                          presentation.table_from_prop, 0.5 * glm::dvec2(base.high - base.low));
+    const double light = caption_brightness_ * presentation.site_map->brightness;
+    const auto add = [&](const exhibit::SiteMap::Corners& corners, double brightness) {
+        on_table_.add({.corners_m = residency::flat_corners({corners[3], corners[2], corners[1], corners[0]}),
+                       .brightness = light * brightness,
+                       .texture = white_});
+    };
+    add(map.ground, ground_light);
+    add(map.shown, shown_light);
 }
 
 render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presentation& presentation,
@@ -464,6 +499,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     }
     place_hotspot(presentation);
     place_title(presentation);
+    place_site_map(presentation);
     place_signs(presentation);
     notice_.place(presentation.notice, caption_brightness_, projector_, table_from_projector_, picture_m_,
                   renderer_.store(), on_table_);
@@ -483,7 +519,9 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
                            target, redraw);
     }
     const LentSpace lent(windows, levels->plans());
-    return levels->draw(now, prop_, std::span(views).first(layout_.count), renderer_, target, redraw);
+    const std::span<const scene::Part> marks =
+        cells != nullptr ? cells->marks() : std::span<const scene::Part>();
+    return levels->draw(now, prop_, std::span(views).first(layout_.count), renderer_, target, redraw, marks);
 }
 
 ShowUse ArtifactShow::use() const {

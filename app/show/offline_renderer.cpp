@@ -189,6 +189,7 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
         cells_ = scene.world->cells;
         behaviour_ = scene.world->behaviour;
         held_s_ = scene.world->held_s;
+        site_ = scene.world->site;
     }
     for (std::size_t eye = 0; eye < scene.plan.eyes; ++eye) {
         plans_.push_back(scene::make_plan(prop_, indices, parts_.size()));
@@ -206,8 +207,12 @@ void OfflineRenderer::pose_cells(double seconds) {
     if (cells_.empty()) {
         return;
     }
-    const std::vector<world::CellPose> poses = world::poses_at(cells_, behaviour_, held_s_.value_or(seconds));
+    std::vector<world::CellPose> poses = world::poses_at(cells_, behaviour_, held_s_.value_or(seconds));
+    for (world::CellPose& pose : poses) {
+        pose.box_from_geometry = site_ ? site_->matrix() * pose.box_from_geometry : pose.box_from_geometry;
+    }
     for (std::size_t k = 0; k < parts_.size(); ++k) {
+        parts_[k].level.beyond = site_ && *site_ != world::SiteView{};
         scene::set_pose(parts_[k].level, poses[shown_[k].cell.value()], metres_per_box_);
     }
 }

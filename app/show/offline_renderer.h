@@ -107,6 +107,7 @@ private:
     std::vector<world::Cell> cells_;
     world::Behaviour behaviour_;
     std::optional<double> held_s_; ///< as OfflineWorld
+    std::optional<world::SiteView> site_;
     std::optional<OfflineTorch> torch_;
     torch::Beam beam_;
     scene::TextureId torch_picture_ = scene::TextureId::None;

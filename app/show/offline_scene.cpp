@@ -1,6 +1,7 @@
 #include "app/show/offline_scene.h"
 
 #include "app/pack/pack_relief.h"
+#include "app/pack/pack_site.h"
 #include "app/pack/pack_states.h"
 #include "app/pack/pack_world.h"
 #include "app/render/renderer.h"
@@ -86,6 +87,45 @@ Result<void> hold_state(const pack::PackState& state, const pack::PackWorld& wor
     return {};
 }
 
+/// The view of a site, whose regions `pack` has.
+Result<world::SiteView> site_view_of(const pack::PackDescription& pack, const OfflineSite& site) {
+    TRY(const std::vector<pack::SiteRegion> packed, pack::site_regions_of(pack));
+    if (packed.empty()) {
+        return bad_input(
+            "render.no_site",
+            "--site: the pack is no site; bake it with [site] in its artifact.toml, or leave the option out");
+    }
+    std::vector<world::RegionBox> regions;
+    for (const pack::SiteRegion& region : packed) {
+        regions.push_back({region.low, region.high});
+    }
+    const std::optional<std::size_t> region = world::region_at(regions, site.place_box);
+    if (!region) {
+        return bad_input("render.off_site",
+                         "--site: no region of the site is at {:.4f}, {:.4f}; its ground reaches to {:.4f} "
+                         "and {:.4f} on each side of the "
+                         "middle",
+                         site.place_box.x, site.place_box.y, 0.5 * pack.box_size.x, 0.5 * pack.box_size.y);
+    }
+    return world::view_of({site.place_box, regions[*region].low.z}, site.zoom);
+}
+
+/// Of a site's region at a zoom: the coarsest level within the tolerance, otherwise the finest.
+Result<std::string> technique_at(const settings::Settings& settings, const pack::PackOutline& region,
+                                 const scene::ScenePlan& whole, double metres_per_box) {
+    TRY(const scene::SeenByEyes seen, scene::seen_by_eyes(region));
+    const double tolerance_mm =
+        1e3 * settings.render.error_tolerance_px *
+        scene::pixel_on_prop_m(whole.prop, whole.projector, whole.table_from_projector.inverse());
+    std::size_t level = 0;
+    while (level + 1 < region.levels.size() &&
+           !scene::within_tolerance(region.levels[level].error, scene::worst_of(seen.levels[level]),
+                                    1e3 * metres_per_box, tolerance_mm)) {
+        ++level;
+    }
+    return fmt::format("level{}", level);
+}
+
 /// Reads the cell's level or relief.
 Result<OfflineCell> load_offline_cell(const std::filesystem::path& file, const OfflineScene& scene,
                                       const pack::PackCell& cell, std::size_t number,
@@ -94,8 +134,12 @@ Result<OfflineCell> load_offline_cell(const std::filesystem::path& file, const O
     scene::ScenePlan plan;
     Result<pack::VerifiedPack> pack = pack::load_cell(
         file, cell, [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-            TRY(plan, scene::plan_cell(settings, outline, scene.plan, at_rest,
-                                       request_of(scene.setup, settings, *scene.pack)));
+            scene::SceneRequest request = request_of(scene.setup, settings, *scene.pack);
+            if (const auto& site = scene.setup.options.site; site && request.technique == "auto") {
+                const double at_rest_m = scene::metres_per_box_of(at_rest, scene.plan.metres_per_box);
+                TRY(request.technique, technique_at(settings, outline, scene.plan, site->zoom * at_rest_m));
+            }
+            TRY(plan, scene::plan_cell(settings, outline, scene.plan, at_rest, request));
             return plan.levels;
         });
     TRY_VOID(pack);
@@ -115,6 +159,9 @@ Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const
         TRY(const std::size_t behaviour, find_behaviour(world, name));
         read.behaviour = world.behaviours[behaviour].behaviour;
     }
+    if (const auto& site = scene.setup.options.site) {
+        TRY(read.site, site_view_of(*scene.pack, *site));
+    }
     read.cells = pack::tree_of(world);
     const std::vector<world::CellPose> at_rest = world::poses_at_rest(read.cells);
     for (std::size_t k = 0; k < world.cells.size(); ++k) {
@@ -132,7 +179,7 @@ Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const
 
 /// A behaviour is drawn with the cells, and so are a state of them and a pack whose cells are quicker than the whole.
 Result<bool> draws_cells(const OfflineOptions& options, const pack::PackDescription& pack) {
-    if (!options.behaviour.empty()) {
+    if (!options.behaviour.empty() || options.site) {
         return true;
     }
     if (!options.state.empty()) {

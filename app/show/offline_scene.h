@@ -13,6 +13,7 @@
 #include "app/torch/content.h"
 #include "app/world/behaviour.h"
 #include "app/world/cell.h"
+#include "app/world/site_view.h"
 
 #include <filesystem>
 #include <functional>
@@ -22,6 +23,12 @@
 #include <vector>
 
 namespace frustumscreen::show {
+
+/// The place stands on the prop's ground, in the middle.
+struct OfflineSite {
+    glm::dvec2 place_box{0.0}; ///< on the site's ground, box frame
+    double zoom = 1.0;         ///< relative to the miniature, 1 to world::max_zoom
+};
 
 struct OfflineOptions {
     std::string technique = "auto";
@@ -41,6 +48,8 @@ struct OfflineOptions {
     std::size_t windows = 0; ///< that may be pinned, up to scene::max_windows
     bool window_patches =
         false; ///< draws windows by their points wherever an eye has some (scene/window_patches.h)
+    /// A part of a site, drawn large; none: the whole.
+    std::optional<OfflineSite> site = std::nullopt;
 };
 
 struct OfflineSetup {
@@ -58,6 +67,7 @@ struct OfflineWorld {
     world::Behaviour behaviour;     ///< moves nothing: the cells are drawn at rest
     std::vector<OfflineCell> drawn; ///< the cells with geometry
     std::optional<double> held_s{}; ///< of a state: the time in the behaviour at which every picture is
+    std::optional<world::SiteView> site = std::nullopt;
 };
 /// What torches throw.
 struct OfflineTorch {

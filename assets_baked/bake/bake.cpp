@@ -32,7 +32,8 @@ namespace {
 /// errors are meaningless below about 3e-4, and its result strays by that much.)
 constexpr std::size_t max_finest_triangles = 600'000;
 constexpr float finest_tolerance = 5e-5F;
-constexpr std::array<float, 6> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F};
+constexpr std::array<float, 8> mesh_tolerances{1e-4F, 2.2e-4F, 3.6e-4F, 5.5e-4F, 9e-4F, 2e-3F, 4e-3F, 8e-3F};
+constexpr std::size_t tolerances_of_whole = 6; ///< the others are for regions of sites
 
 void begin_stage(const BakeOptions& options, const BakeStage& stage) {
     options.progress(stage.name, stage.begin);
@@ -90,8 +91,9 @@ public:
         const std::vector<glm::dvec3> seen_points(visible_.positions.begin(), visible_.positions.end());
         const SourceScene seen(seen_mesh, seen_points);
         std::size_t last = finest_.triangle_count();
-        for (std::size_t k = 0; k < mesh_tolerances.size(); ++k) {
-            const double share = static_cast<double>(k) / mesh_tolerances.size();
+        const std::size_t tolerances = options_.of_site ? mesh_tolerances.size() : tolerances_of_whole;
+        for (std::size_t k = 0; k < tolerances; ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(tolerances);
             options_.progress(stages::levels.name,
                               std::lerp(stages::levels.begin, stages::colours.begin, share));
             const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
@@ -264,14 +266,14 @@ pack::LevelOutline outline_of(const Surface& surface) {
 }
 
 /// Keeps the surfaces that are worth a level, from fine to coarse.
-void keep_front(std::vector<Surface>& surfaces) {
+void keep_front(std::vector<Surface>& surfaces, float worst_mean) {
     std::vector<pack::LevelOutline> outlines;
     outlines.reserve(surfaces.size());
     for (const Surface& surface : surfaces) {
         outlines.push_back(outline_of(surface));
     }
     std::vector<Surface> kept;
-    for (const std::size_t k : measured_front(outlines)) {
+    for (const std::size_t k : measured_front(outlines, worst_mean)) {
         kept.insert(kept.begin(), std::move(surfaces[k]));
     }
     surfaces = std::move(kept);
@@ -286,7 +288,7 @@ bool betters(const pack::LevelError& dearer, const pack::LevelError& cheaper) {
 }
 
 /// Moves the levels on the front, and their texture, into the pack.
-void keep(pack::Pack& pack, TexturedLevels meshes) {
+void keep(pack::Pack& pack, TexturedLevels meshes, float worst_mean) {
     std::vector<pack::LevelOutline> outlines;
     outlines.reserve(meshes.levels.size());
     for (const pack::PackLevel& level : meshes.levels) {
@@ -296,7 +298,7 @@ void keep(pack::Pack& pack, TexturedLevels meshes) {
                             .vertices = level.vertices.size(),
                             .texture = 0});
     }
-    for (const std::size_t k : measured_front(outlines)) {
+    for (const std::size_t k : measured_front(outlines, worst_mean)) {
         pack.levels.push_back(std::move(meshes.levels[k]));
     }
     pack.textures.push_back(std::move(meshes.texture));
@@ -304,10 +306,8 @@ void keep(pack::Pack& pack, TexturedLevels meshes) {
 
 } // namespace
 
-std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& levels) {
+std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& levels, float worst_mean) {
     constexpr std::uint64_t few_triangles = 1500; // fewer triangles do not make a frame cheaper
-    constexpr float worst_mean_box = 3e-3F;       // 0.3 mm on an artifact of 0.1 m, the most that a visitor
-                                                  // accepts
     std::vector<std::size_t> order(levels.size());
     std::iota(order.begin(), order.end(), 0);
     const auto rank = [&](std::size_t k) {
@@ -319,8 +319,8 @@ std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& l
     for (const pack::LevelOutline& level : levels) {
         nearest = std::min(nearest, level.error.mean_box);
     }
-    std::erase_if(
-        order, [&](std::size_t k) { return levels[k].error.mean_box > std::max(worst_mean_box, nearest); });
+    std::erase_if(order,
+                  [&](std::size_t k) { return levels[k].error.mean_box > std::max(worst_mean, nearest); });
     std::vector<std::size_t> front;
     for (const std::size_t k : order) {
         if (front.empty() || betters(levels[k].error, levels[front.back()].error)) {
@@ -342,7 +342,9 @@ Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
         pack.hotspots.push_back(std::move(hotspot));
     }
     std::vector<Surface> surfaces = bakery.surfaces();
-    keep_front(surfaces);
+    constexpr float of_region = 5.0F; // a region is a quarter of its site, or less
+    const float worst_mean = options.of_site ? of_region * worst_mean_box : worst_mean_box;
+    keep_front(surfaces, worst_mean);
     TexturedLevels meshes = bakery.mesh_levels(surfaces);
     const std::vector<pack::MeasuredRelief> cast =
         options.relief ? bakery.reliefs(meshes) : std::vector<pack::MeasuredRelief>{};
@@ -367,7 +369,7 @@ Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
         used.emplace_back(0.0); // the bottom of the box, above which the artifact stands
     }
     pack.extremes = profile_extremes(used);
-    keep(pack, std::move(meshes));
+    keep(pack, std::move(meshes), worst_mean);
     begin_stage(options, stages::choice);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);

@@ -63,6 +63,8 @@ struct BakeOptions {
     bool unlit = false;
     bool relief = true; ///< the pack contains layered relief (measured_reliefs.h)
     bool far = false;   ///< and coarser ones, for the screen behind the table
+    bool of_site =
+        false; ///< the mesh is a region of a site, in which it is also seen small: coarser levels are kept
     BakedProp prop = baked_frustum();
     std::string up;            ///< empty: the format's own up axis
     double turn_deg = 0.0;     ///< about the vertical axis, counter-clockwise seen from above; best_turn.h
@@ -97,6 +99,9 @@ struct BakeOptions {
 /// cost does not depend on them), cheapest first: each has a smaller mean error than the one before, and no
 /// clearly larger 95th percentile or colour error. Levels that stray further than a visitor would accept are
 /// left out, except for the most exact one.
-[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& levels);
+/// 0.3 mm on an artifact of 0.1 m, the most that a visitor accepts.
+inline constexpr float worst_mean_box = 3e-3F;
+[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& levels,
+                                                      float worst_mean = worst_mean_box);
 
 } // namespace frustumscreen::bake

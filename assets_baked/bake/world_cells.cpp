@@ -126,12 +126,16 @@ private:
     [[nodiscard]] BakeOptions options_of(const Bounds& bounds, double begin, double end) const {
         const double longest = bounds.longest();
         BakeOptions options = options_;
-        options.size = std::clamp(static_cast<int>(std::ceil(options_.size * longest)), min_size,
+        options.of_site = sides_ == CellSides::OfSite;
+        const double shown = options.of_site ? 0.5 : longest; // a region of a site fills the prop
+        options.size = std::clamp(static_cast<int>(std::ceil(options_.size * shown)), min_size,
                                   std::max(min_size, options_.size));
+        options.relief = options_.relief && !options.of_site;
         options.up = "z";
         options.turn_deg = 0.0;
         options.lift = 0.0;
-        options.scale = std::clamp(options_.scale * longest, pack::min_scale, pack::max_scale);
+        options.scale =
+            options.of_site ? 1.0 : std::clamp(options_.scale * longest, pack::min_scale, pack::max_scale);
         options.measuring = options_.measuring * std::clamp(longest, min_measuring, 1.0);
         options.hotspots.clear();
         options.torches = {}; // a cell has the layers alone
@@ -174,7 +178,12 @@ private:
     }
 
     void tell() {
-        if (!flat_.empty()) {
+        if (!flat_.empty() && sides_ == CellSides::OfSite) {
+            made_.notes.push_back(
+                {SourceNote::Kind::Lost,
+                 fmt::format("parts of the site that have no surface ({}), where it is shown large",
+                             printable(fmt::format("{}", fmt::join(flat_, ", ")), 200))});
+        } else if (!flat_.empty()) {
             made_.notes.push_back(
                 {SourceNote::Kind::Lost,
                  fmt::format(

@@ -27,7 +27,11 @@ struct WorldCells {
     std::vector<SourceNote> notes;
 };
 
-enum class CellSides { All, SeenAtRest };
+enum class CellSides {
+    All,
+    SeenAtRest,
+    OfSite, ///< as SeenAtRest, of regions that a site shows large, too: fine texels, no reliefs, coarse levels
+};
 /// The mesh has nodes. `frame`: of the whole, as `options` make it.
 [[nodiscard]] WorldCells bake_cells(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options,
                                     CellSides sides = CellSides::All);

@@ -38,7 +38,8 @@ constexpr auto inner_keys = std::to_array<InnerKey>(
      {"trigger", "[[behaviours]]"}, {"titles", "[[behaviours]]"}, {"picture", "[[torch]]"},
      {"film", "[[torch]]"},         {"layer", "[[torch]]"},       {"effect", "[[torch]]"},
      {"hide", "[[states]]"},        {"behaviour", "[[states]]"},  {"up", "[placement]"},
-     {"turn_deg", "[placement]"},   {"scale", "[placement]"},     {"lift", "[placement]"}});
+     {"turn_deg", "[placement]"},   {"scale", "[placement]"},     {"lift", "[placement]"},
+     {"max_triangles", "[site]"}});
 constexpr settings::Range coordinate{-1e9, 1e9, "units of the scan"};
 
 /// Reads a text without surrounding blanks; one of only blanks counts as left out.
@@ -69,6 +70,16 @@ void read_placement(settings::TableReader& table, ArtifactFile& file) {
     }
     table.number("scale", file.scale, {pack::min_scale, pack::max_scale, ""});
     table.number("lift", file.lift, {0.0, 1.0, "heights of the artifact"});
+}
+
+/// An empty table makes a site, too.
+void read_site(settings::TableReader& table, std::optional<ArtifactSite>& site) {
+    ArtifactSite read;
+    const bool is_there = table.has("site");
+    table.table("site", {}, [&](settings::TableReader& inner) {
+        inner.integer("max_triangles", read.max_triangles, min_region_triangles, max_region_triangles, {});
+    });
+    site = is_there ? std::optional(read) : std::nullopt;
 }
 
 void read_caption(settings::TableReader& table, pack::PackCaption& caption, std::set<std::string>& languages,
@@ -125,6 +136,7 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
     table.flag("unlit", file.unlit, {});
     read_word(table, "prop", file.prop, prop_words);
     table.table("placement", {}, [&](settings::TableReader& inner) { read_placement(inner, file); });
+    read_site(table, file.site);
     std::set<std::string> languages;
     table.tables("texts", file.texts, pack::max_languages,
                  [&](settings::TableReader& item, pack::PackCaption& caption) {
@@ -144,6 +156,8 @@ void read_all(settings::TableReader& table, ArtifactFile& file) {
     table.tables(
         "states", file.states, pack::max_states,
         [&](settings::TableReader& item, ArtifactState& each) { read_state(item, each, file.states); }, {});
+    table.require("folder.site_moves", !file.site || file.behaviours.empty(), "site",
+                  "stands beside [[behaviours]], but nothing of a site moves; leave one of them out");
     for (pack::PackCaption& caption : file.texts) {
         caption.title = caption.title.empty() ? file.texts.front().title : caption.title;
     }

@@ -34,6 +34,12 @@ struct ArtifactHotspot {
     std::vector<pack::PackLabel> labels;
 };
 
+/// Terrain and buildings, of which a region can be shown large.
+struct ArtifactSite {
+    int max_triangles = 150'000; ///< of a region
+};
+inline constexpr int min_region_triangles = 1'000, max_region_triangles = 500'000;
+
 /// The file's values; missing ones have the bake's defaults.
 struct ArtifactFile {
     std::filesystem::path scan;    ///< path including the folder
@@ -55,6 +61,7 @@ struct ArtifactFile {
     std::vector<ArtifactBehaviour> behaviours;
     std::vector<ArtifactTorch> torches;
     std::vector<ArtifactState> states;
+    std::optional<ArtifactSite> site; ///< nothing: the artifact is none
 };
 
 /// `file` is the name in messages; paths in the text are relative to its folder.

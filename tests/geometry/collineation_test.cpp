@@ -312,5 +312,54 @@ TEST(Collineation, APointOfTheFaceItselfIsDrawnWhereTheProjectorSeesIt) {
     }
 }
 
+/// What lies before the face is nearer than the nearest depth, what lies behind it within the depths, and farther along an eye ray is
+/// farther in depth; each point is on the pixel that `collineation` has for it.
+TEST(CollineationBehind, CutsAtTheFaceAndReachesToInfinity) {
+    Random random(36);
+    int before = 0;
+    int behind = 0;
+    for (int k = 0; k < 500; ++k) {
+        const Case c = random_case(random, random.between(0.8, 3.0), 1.0);
+        for (const PropFace& face : c.prop.faces) {
+            const auto clip = collineation_behind(face.plane, c.eye, c.clip_from_prop,
+                                                  {face.corners.data(), face.corners.size()});
+            const glm::dvec3 on_face =
+                glm::mix(glm::mix(face.corners[0], face.corners[1], random.between(0.0, 1.0)),
+                         face.corners[2], random.between(0.0, 1.0));
+            if (!clip || !by_rays(face.plane, c.eye, on_face, c.projector).seen) {
+                continue;
+            }
+            double nearer = -2.0;
+            for (const double share : {0.5, 0.9, 0.999, 1.001, 1.1, 2.0, 10.0, 1e3, 1e6, 1e9}) {
+                const glm::dvec3 x = c.eye + share * (on_face - c.eye);
+                expect_same_pixel(c, face.plane, *clip, x, share < 1e4 ? 1e-5 : 1e-2);
+                const glm::dvec4 at = *clip * glm::dvec4(x, 1.0);
+                const double depth = at.z / at.w;
+                EXPECT_EQ(share > 1.0, depth > -1.0) << share;
+                EXPECT_LT(depth, 1.0) << share;
+                EXPECT_TRUE(share < 1.0 || depth > nearer) << share;
+                nearer = depth;
+                (share > 1.0 ? behind : before) += 1;
+            }
+        }
+    }
+    EXPECT_GT(before, 1000);
+    EXPECT_GT(behind, 2000);
+}
+
+TEST(CollineationBehind, IsNoneForAnEyeThatDoesNotLookOntoTheFace) {
+    Random random(37);
+    for (int k = 0; k < 100; ++k) {
+        Case c = random_case(random, 1.0, 1.0);
+        const PropFace& face = c.prop.faces[static_cast<std::size_t>(k % 5)];
+        const glm::dvec3 middle = 0.5 * (face.corners[0] + face.corners[2]);
+        for (const double above : {0.0, -0.3}) {
+            c.eye = middle + above * face.plane.normal + 0.5 * (face.corners[1] - face.corners[0]);
+            EXPECT_FALSE(collineation_behind(face.plane, c.eye, c.clip_from_prop,
+                                             {face.corners.data(), face.corners.size()}));
+        }
+    }
+}
+
 } // namespace
 } // namespace frustumscreen::geometry

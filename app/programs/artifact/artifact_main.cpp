@@ -1,5 +1,6 @@
 /// frustumscreen-artifact: writes a built-in artifact's mesh as a GLB file, or a curator's folder with it; and what stands
-/// in the example hall, as GLB files.
+/// in the example hall, as GLB files; and example sites.
+#include "app/programs/artifact/example_sites.h"
 #include "app/programs/common/command_line.h"
 #include "app/programs/common/guarded_main.h"
 #include "app/settings/language_tag.h"
@@ -51,6 +52,13 @@ int list_artifacts(const std::string& language) {
     return 0;
 }
 
+int list_sites() {
+    for (const ExampleSite& site : example_sites()) {
+        fmt::print("{}\t{}\n", site.name, site.what);
+    }
+    return 0;
+}
+
 int list_hall() {
     for (const artifacts::HallObject& object : artifacts::hall_objects()) {
         fmt::print("{}\t{}\t{}\n", object.name,
@@ -62,12 +70,16 @@ int list_hall() {
 /// Writes the mesh and, if `folder` is given, its layers and its artifact.toml beside it.
 Result<void> write_artifact(const std::string& name, std::int64_t triangles,
                             const std::filesystem::path& output, const std::filesystem::path& folder) {
-    TRY(const bake::SourceMesh mesh, artifacts::make_builtin(name, triangles));
+    const bool is_site = is_example_site(name);
+    TRY(const bake::SourceMesh mesh,
+        is_site ? make_example_site(name, triangles) : artifacts::make_builtin(name, triangles));
     TRY(const Bytes bytes, artifacts::write_glb(mesh));
     if (folder.empty()) {
         return write_file(output, bytes);
     }
-    if (artifacts::builtin_folder_text(name).empty()) {
+    const std::string text =
+        is_site ? example_site_text(name) : std::string(artifacts::builtin_folder_text(name));
+    if (text.empty()) {
         return bad_input("artifact.no_texts",
                          "'{}' stands in the example hall and has no texts; write its mesh with -o", name);
     }
@@ -81,8 +93,7 @@ Result<void> write_artifact(const std::string& name, std::int64_t triangles,
         TRY_VOID(write_file(folder / layer.file, image::encode_png(layer.picture)));
     }
     return write_file(folder / (name + ".glb"), bytes).and_then([&] {
-        return write_file(folder / folder::artifact_file_name,
-                          as_bytes(artifacts::builtin_folder_text(name)));
+        return write_file(folder / folder::artifact_file_name, as_bytes(text));
     });
 }
 
@@ -94,12 +105,13 @@ int run(int argc, char** argv) {
     std::filesystem::path folder;
     bool list = false;
     bool list_of_hall = false;
+    bool list_of_sites = false;
 
     CommandLine app{"Writes a built-in artifact's mesh as a GLB file (millimetres, +Y up).",
                     "frustumscreen-artifact"};
     app.set_version_flag("--version", name_and_version("frustumscreen-artifact"));
-    const CommandOption name_option =
-        app.add_option("name", name, "name of the artifact, as --list and --list-hall print it");
+    const CommandOption name_option = app.add_option(
+        "name", name, "name of the artifact, as --list, --list-hall and --list-sites print it");
     app.add_option("--triangles", triangles, "number of triangles, within 5 %").capture_default_str();
     const CommandOption output_option = app.add_option("-o,--output", output, "GLB file to write");
     const CommandOption folder_option =
@@ -115,11 +127,19 @@ int run(int argc, char** argv) {
                      "print what stands in the example hall (config/hall/room.toml): name, 'lit' where the "
                      "bake gives it its light "
                      "or 'unlit' where its colours have it, and what it is, separated by tabs");
-    hall_option.excludes(name_option).excludes(output_option).excludes(folder_option).excludes(list_option);
+    const CommandOption sites_option = app.add_flag(
+        "--list-sites", list_of_sites, "print name and kind of each example site, separated by tabs");
+    sites_option.excludes(name_option).excludes(output_option).excludes(folder_option).excludes(list_option);
+    hall_option.excludes(sites_option)
+        .excludes(name_option)
+        .excludes(output_option)
+        .excludes(folder_option)
+        .excludes(list_option);
     list_option.excludes(name_option).excludes(output_option).excludes(folder_option);
     if (const auto end = app.end_of_arguments(argc, argv, [&] {
-            if (!list && !list_of_hall && (name.empty() || (output.empty() && folder.empty()))) {
-                throw missing("NAME and -o or --folder, or --list or --list-hall,");
+            if (!list && !list_of_hall && !list_of_sites &&
+                (name.empty() || (output.empty() && folder.empty()))) {
+                throw missing("NAME and -o or --folder, or --list, --list-hall or --list-sites,");
             }
         })) {
         return *end;
@@ -135,6 +155,9 @@ int run(int argc, char** argv) {
     }
     if (list_of_hall) {
         return list_hall();
+    }
+    if (list_of_sites) {
+        return list_sites();
     }
     const Result<void> written = write_artifact(name, triangles, output, folder);
     return written ? 0 : report(written.error());

@@ -22,6 +22,9 @@ void add_bake_options(CommandLine& app, BakeArguments& arguments) {
            "if an animation or artifact.toml moves them); auto: where nothing moves, parts that are quicker "
            "to draw one by one, if there are any")
         .one_of({"none", "nodes", "auto"});
+    app.add_flag("--site", arguments.site,
+                 "the scan is a site, terrain and buildings: its ground is cut into regions, each of which "
+                 "visitors can have large in the prop");
     app.add_option(
         "--prop", arguments.prop,
         "prop that the artifact is baked for: frustum, cube, or a prop file, *.obj, of a prop in the hand "
@@ -82,6 +85,7 @@ std::vector<std::string> bake_options_of(const BakeArguments& arguments) {
     add_flag("--no-relief", arguments.no_relief);
     add_flag("--far", arguments.far);
     add_text("--cells", arguments.cells);
+    add_flag("--site", arguments.site);
     add_text("--prop", arguments.prop.value_or(""));
     add_text("--up", arguments.up.value_or(""));
     add_number("--turn", arguments.turn_deg);

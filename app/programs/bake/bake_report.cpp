@@ -163,6 +163,12 @@ std::string cells_text(const BakeResult& result) {
     std::string text = result.cells.found ? fmt::format("  {:<8}auto: {}\n", "cells", result.cells.why)
                                           : fmt::format("  {:<8}{}, since {}\n", "cells", taken_cells(result),
                                                         result.cells.why);
+    if (!result.site.empty()) {
+        text.clear(); // its cells are its regions
+    }
+    for (const std::string& each : result.site) {
+        text += fmt::format("  {:<8}{}\n", "site", each);
+    }
     for (const std::string& each : result.torches) {
         text += fmt::format("  {:<8}{}\n", "torch", each);
     }
@@ -281,6 +287,7 @@ Json report_json(const BakeResult& result) {
                    {"missing", result.missing},
                    {"torches", result.torches},
                    {"states", result.states},
+                   {"site", result.site},
                    {"cells", cells_json(result)},
                    {"scan", json_of(result.scan)},
                    {"id", result.pack.id},

@@ -35,7 +35,8 @@ struct BakeResult {
     double turn_deg = 0.0;
     bool turn_given = false; ///< false: chosen by the bake
     CellsChoice cells;
-    pack::PackWorld world; ///< empty: the pack has no cells
+    pack::PackWorld world;         ///< empty: the pack has no cells
+    std::vector<std::string> site; ///< its regions, a line each; empty: it is no site
     ScanSummary scan;
     std::vector<std::string> torches; ///< what each content of a torch shows, a line each
     std::vector<std::string> states;  ///< what each state is, a line each
@@ -55,7 +56,7 @@ struct BakeResult {
 [[nodiscard]] std::string report_text(const BakeResult& result);
 /// {file, bytes, title, seconds, processor_seconds, memory_bytes, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
 /// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], taken: [], missing: [], torches: [], states: [], cells: {taken: none, nodes or found, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
+/// guessed: [], taken: [], missing: [], torches: [], states: [], site: [], cells: {taken: none, nodes or found, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen::programs

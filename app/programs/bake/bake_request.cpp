@@ -236,7 +236,11 @@ Result<BakeRequest> request_of(const BakeArguments& written) {
     request.strict = arguments.strict;
     request.texture = arguments.texture.empty() ? file.texture : arguments.texture;
     request.turn_deg = arguments.turn_deg ? arguments.turn_deg : file.turn_deg;
-    request.cells = arguments.cells;
+    if (arguments.site || file.site) {
+        const int max_triangles = file.site.value_or(folder::ArtifactSite{}).max_triangles;
+        request.site = bake::SiteOptions{.max_triangles = static_cast<std::size_t>(max_triangles)};
+    }
+    request.cells = request.site ? "none" : arguments.cells; // its cells are its regions
     request.behaviours = file.behaviours;
     request.torches = file.torches;
     request.states = file.states;

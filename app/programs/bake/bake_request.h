@@ -7,6 +7,7 @@
 #include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "assets_baked/bake/bake.h"
+#include "assets_baked/bake/site_regions.h"
 #include "assets_baked/folder/artifact_behaviours.h"
 #include "assets_baked/folder/artifact_states.h"
 #include "assets_baked/folder/artifact_torches.h"
@@ -35,6 +36,7 @@ struct BakeArguments {
     bool no_relief = false;
     bool far = false;
     std::string cells; ///< none, nodes, auto; empty: nodes if something moves
+    bool site = false; ///< terrain and buildings, as [site] in artifact.toml
     std::optional<int> size;
     std::optional<std::string> prop;
     std::optional<std::string> up;
@@ -66,6 +68,7 @@ struct BakeRequest {
     std::vector<folder::ArtifactBehaviour> behaviours;
     std::vector<folder::ArtifactTorch> torches;
     std::vector<folder::ArtifactState> states;
+    std::optional<bake::SiteOptions> site; ///< nothing: the scan is none
     bake::BakeOptions options;
     std::string id;                          ///< empty: from the pack's name (scan_about.h)
     std::string usual_title;                 ///< title of a caption that has none of its own

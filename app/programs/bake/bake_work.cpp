@@ -9,6 +9,7 @@
 #include "app/programs/bake/check_scan.h"
 #include "app/programs/bake/load_scan.h"
 #include "app/programs/bake/put_cells.h"
+#include "app/programs/bake/put_site.h"
 #include "app/programs/bake/scan_about.h"
 #include "app/programs/bake/states_of.h"
 #include "app/programs/bake/torch_contents.h"
@@ -135,7 +136,8 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
         load_scan(written, [&](std::string_view step, double done) { progress(step, read * done); }));
     BakeResult result;
     result.cells = choose_cells(written.cells, mesh, written.behaviours.size(), hides_parts(written));
-    const double whole = result.cells.nodes || result.cells.found ? whole_share : 1.0;
+    const bool in_parts = result.cells.nodes || result.cells.found || written.site.has_value();
+    const double whole = in_parts ? whole_share : 1.0;
     const auto begin_stages = [&](double begin, double end) {
         options.progress = [&progress, begin, end](std::string_view step, double done) {
             progress(step, std::lerp(begin, end, done));
@@ -160,6 +162,9 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
         request.turn_deg ? *request.turn_deg
                          : bake::best_turn_deg(mesh, result.up, options.lift, options.prop.shape);
     TRY_VOID(check_hotspots(mesh, options));
+    if (request.site) {
+        TRY_VOID(at(request.scan.string(), check_site(mesh, *request.site, options)));
+    }
     TRY(TorchContents torches, contents_of(request, mesh, Contents::Read));
     result.notes.insert(result.notes.end(), torches.notes.begin(), torches.notes.end());
     result.torches = torches.told;
@@ -186,6 +191,14 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
         TRY(AutoCells found, at(request.scan.string(), put_auto_cells(pack, mesh, options)));
         result.cells.why = std::move(found.why);
         result.world = std::move(found.world);
+    }
+    if (request.site) {
+        begin_stages(std::lerp(read, 1.0, whole), 1.0);
+        TRY(MadeSite site,
+            at(request.scan.string(), put_site(pack, mesh, *request.site, options, result.notes)));
+        result.site = std::move(site.told);
+        result.world = std::move(site.world);
+        TRY_VOID(check_losses(result.notes, request));
     }
     TRY(std::vector<pack::PackState> states, states_of(request, mesh, result.world, cell_of));
     TRY_VOID(at(request.scan.string(), pack::put_states(pack, std::move(states))));

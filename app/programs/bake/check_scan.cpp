@@ -3,6 +3,7 @@
 #include "app/programs/bake/artifact_words.h"
 #include "app/programs/bake/behaviours_of.h"
 #include "app/programs/bake/load_scan.h"
+#include "app/programs/bake/put_site.h"
 #include "app/programs/bake/scan_about.h"
 #include "app/programs/bake/states_of.h"
 #include "app/programs/bake/torch_contents.h"
@@ -29,6 +30,9 @@ Result<void> look_at(const BakeArguments& arguments, CheckedScan& checked) {
                      choose_cells(request.cells, mesh, request.behaviours.size(), hides_parts(request)),
                      checked.notes));
     TRY(checked.states, check_states(request, mesh, behaviours));
+    if (request.site) {
+        TRY_VOID(at(request.scan.string(), check_site(mesh, *request.site, request.options)));
+    }
     TRY(TorchContents torches, contents_of(request, mesh, Contents::Look));
     checked.torches = std::move(torches.told);
     checked.notes.insert(checked.notes.end(), torches.notes.begin(), torches.notes.end());

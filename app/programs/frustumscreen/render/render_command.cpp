@@ -9,6 +9,7 @@
 #include "app/programs/frustumscreen/render/pose_input.h"
 #include "app/programs/frustumscreen/render/screen_painter.h"
 #include "app/programs/frustumscreen/render/screen_pictures.h"
+#include "app/programs/frustumscreen/render/site_option.h"
 #include "app/scene/other_prop.h"
 #include "app/settings/settings.h"
 #include "app/show/offline_renderer.h"
@@ -43,6 +44,7 @@ struct Request {
     bool no_light = false;
     std::vector<std::string> pins;
     std::string windows = "geometry"; ///< what draws them
+    std::string site;                 ///< empty: the whole
     show::OfflineOptions options;
 };
 
@@ -104,16 +106,21 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
            "beforehand for the eyes above the window")
         .one_of({"geometry", "patches"})
         .capture_default_str();
-    app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
-    app.add_flag("--aov", request.options.hit_points,
-                 "also write hit points (frame_00000.pfm; prop frame, metres)");
-    const std::optional<int> end = app.end_of_arguments(argc, argv);
-    request.options.light = !request.no_light;
-    if (request.view == "projector") {
-        request.options.width = request.width;
-        request.options.height = request.height;
-    }
-    return end;
+           "--site", request.site,
+           "draw a part of a site large: the place X,Y of its ground in the prop's middle, ZOOM times "
+           "larger than the miniature")
+        .check(is_site())
+        .type_name("X,Y,ZOOM");
+           app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
+           app.add_flag("--aov", request.options.hit_points,
+                        "also write hit points (frame_00000.pfm; prop frame, metres)");
+           const std::optional<int> end = app.end_of_arguments(argc, argv);
+           request.options.light = !request.no_light;
+           if (request.view == "projector") {
+               request.options.width = request.width;
+               request.options.height = request.height;
+           }
+           return end;
 }
 
 /// Warns about places off the table: poses in millimetres, or in a tracker's frame, give dark pictures.
@@ -218,6 +225,7 @@ show::OfflineOptions options_for(const Request& request, EyeChoice eye, const se
     options.both_eyes = eye == EyeChoice::Both;
     options.windows = request.pins.size();
     options.window_patches = options.windows > 0 && request.windows == "patches";
+    options.site = request.site.empty() ? std::nullopt : std::optional(site_in(request.site));
     for (const tracking::TrackedState& frame : frames) {
         for (const glm::dvec3& eye_m : chosen_eyes(eye, frame, 1e-3 * settings.interocular_mm)) {
             options.views.push_back({frame.table_from_prop, eye_m});
@@ -252,6 +260,7 @@ Result<void> render_screen(const Request& request, const settings::Settings& set
     say_unused("--state", !request.options.state.empty());
     say_unused("--view", request.view != "projector");
     say_unused("--pin", !request.pins.empty());
+    say_unused("--site", !request.site.empty());
     TRY_VOID(make_folder(request.out));
     return write_screen_pictures(settings,
                                  {.eye = request.eye,
