@@ -141,25 +141,27 @@ std::string torch_frames_csv(const TorchResult& result) {
 }
 
 std::string torch_details_csv(const TorchResult& result) {
-    std::string csv = "scene,technique,tolerance_mm,triangles_p50,lit_pixels,leak_pct\n";
+    std::string csv = "scene,technique,tolerance_mm,triangles_p50,lit_pixels,leak_pct,unclear_pct\n";
     for (const TorchRow& row : result.rows) {
-        csv += fmt::format("{},{},{:.4g},{:.0f},{},{:.3f}\n", row.scene, row.way.name, row.tolerance_mm(),
-                           median_of(row.triangles), row.error.pixels(), row.error.leak());
+        csv +=
+            fmt::format("{},{},{:.4g},{:.0f},{},{:.3f},{:.2f}\n", row.scene, row.way.name, row.tolerance_mm(),
+                        median_of(row.triangles), row.error.pixels(), row.error.leak(), row.error.unclear());
     }
     return csv;
 }
 
 std::string torch_table(const TorchResult& result) {
     std::string table =
-        fmt::format("{:>7}{:>24}{:>8}{:>9}{:>9}{:>7}{:>9}{:>9}{:>11}{:>9}\n", "scene", "technique", "mm",
-                    "p50 ms", "p99 ms", "times", "rmse %", "max %", "triangles", "leak %");
+        fmt::format("{:>7}{:>24}{:>8}{:>9}{:>9}{:>7}{:>9}{:>9}{:>11}{:>9}{:>10}\n", "scene", "technique",
+                    "mm", "p50 ms", "p99 ms", "times", "rmse %", "max %", "triangles", "leak %", "unclear %");
     for (const TorchRow& row : result.rows) {
         const TorchRow* const none = find(result.rows, row.scene, "none");
         const bool lit = row.way.kind != TorchWay::Kind::None;
-        table += fmt::format("{:>7}{:>24}{:>8.3g}{:>9.2f}{:>9.2f}{:>7.2f}{:>9.3f}{:>9.3f}{:>11.0f}{:>9.2f}\n",
-                             row.scene, row.way.name, row.tolerance_mm(), row.ms_p50(), row.ms_p99(),
-                             row.ms_p50() / none->ms_p50(), lit ? row.error.rmse() : 0.0,
-                             lit ? row.error.max() : 0.0, median_of(row.triangles), row.error.leak());
+        table += fmt::format(
+            "{:>7}{:>24}{:>8.3g}{:>9.2f}{:>9.2f}{:>7.2f}{:>9.3f}{:>9.3f}{:>11.0f}{:>9.2f}{:>10.1f}\n",
+            row.scene, row.way.name, row.tolerance_mm(), row.ms_p50(), row.ms_p99(),
+            row.ms_p50() / none->ms_p50(), lit ? row.error.rmse() : 0.0, lit ? row.error.max() : 0.0,
+            median_of(row.triangles), row.error.leak(), row.error.unclear());
     }
     for (const TorchRow& row : result.samples) {
         const TorchRow* const none = find(result.samples, row.scene, "none");
