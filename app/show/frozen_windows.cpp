@@ -14,6 +14,8 @@ namespace {
 /// Time of a window by patches for each sample of its picture, measured on one core of a virtual machine: half of it warps and
 /// draws the points, of which there are about two a sample; the rest averages the samples.
 constexpr double patch_ms_per_sample = 2e-5;
+/// Patches that save less are not worth that outlines grow by half a pixel.
+constexpr double min_gain = 2.0;
 /// Of a level's triangles the eye sees about half.
 constexpr double seen_share = 0.5;
 
@@ -55,7 +57,7 @@ bool patches_are_quicker(const scene::FrameCost& cost, const scene::PlacedLevel&
                          : part.triangles ? static_cast<double>(part.triangles->indices.size()) / 3.0
                                           : 0.0;
     const scene::FrameWork work{.triangles = seen_share * items, .pixels = samples / (side * side)};
-    return patch_ms_per_sample * samples < own.ms(work, part.samples) - own.fixed_ms;
+    return min_gain * patch_ms_per_sample * samples < own.ms(work, part.samples) - own.fixed_ms;
 }
 
 std::uint32_t level_for(const pack::PackOutline& outline, const scene::ScenePlan& plan,

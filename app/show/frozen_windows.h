@@ -1,6 +1,6 @@
 /// The patches of the windows on the table: made by a thread that exists while they are made, drawn where they are ready.
 ///
-/// Choice   a window is drawn by its patches if that takes less time than its parts, by the costs that the governor measured; by
+/// Choice   a window is drawn by its patches if that takes at most half the time of its parts, by the costs that the governor measured; by
 ///          its parts until the eye's patch is ready, and for eyes beyond the patches (scene/window_patches.h). Parts of a world of
 ///          cells, and those in coloured light, are drawn as they are.
 /// Frames   table T; window: as scene::PinnedView.
@@ -34,7 +34,7 @@ struct FrozenWindow {
     glm::dvec3 eye_m{0.0};
 };
 
-/// True if the patches of a window take less time than its part.
+/// True if the patches of a window take at most half the time of its part.
 [[nodiscard]] bool patches_are_quicker(const scene::FrameCost& cost, const scene::PlacedLevel& part,
                                        const PatchView& view);
 
