@@ -96,7 +96,8 @@ public:
             const double share = static_cast<double>(k) / static_cast<double>(tolerances);
             options_.progress(stages::levels.name,
                               std::lerp(stages::levels.begin, stages::colours.begin, share));
-            const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k]);
+            const Borders borders = options_.of_site ? Borders::Stay : Borders::Move;
+            const TriangleMesh fewer = simplify(finest_, mesh_tolerances[k], borders);
             if (fewer.triangle_count() * 20 > last * 19) {
                 continue; // less than 5 % fewer than the last: not worth a level
             }

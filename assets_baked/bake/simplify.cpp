@@ -74,7 +74,7 @@ TriangleMesh simplify_in_cells(const TriangleMesh& mesh, float tolerance_box, fl
     return result;
 }
 
-TriangleMesh simplified_by_area(const TriangleMesh& mesh, float tolerance_box) {
+TriangleMesh simplified_by_area(const TriangleMesh& mesh, float tolerance_box, unsigned borders) {
     constexpr std::size_t dense = 50'000; // below this, cells would contain little but border triangles
     TriangleMesh result = mesh;
     std::size_t before = 0;
@@ -86,12 +86,12 @@ TriangleMesh simplified_by_area(const TriangleMesh& mesh, float tolerance_box) {
                 result = simplify_in_cells(result, tolerance_box, offset_box);
             }
         } else if (before > 0) {
-            result.indices = simplified(result.indices, result.positions, tolerance_box, 0);
+            result.indices = simplified(result.indices, result.positions, tolerance_box, borders);
             drop_repetitions(result.indices);
         }
     } while (20 * result.triangle_count() < 19 * before);
     if (!result.indices.empty() && mesh.triangle_count() >= dense) { // open borders, which cells never change
-        result.indices = simplified(result.indices, result.positions, tolerance_box, 0);
+        result.indices = simplified(result.indices, result.positions, tolerance_box, borders);
     }
     drop_repetitions(result.indices);
     compact(result);
@@ -159,14 +159,16 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
 
 } // namespace
 
-TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box) {
+TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box, Borders borders) {
     constexpr float finest_tolerance_box = 2e-5F; // below this, the library's errors are meaningless
     if (mesh.indices.empty() || tolerance_box < finest_tolerance_box) {
         return mesh;
     }
-    TriangleMesh result = simplified_by_area(mesh, tolerance_box);
+    TriangleMesh result =
+        simplified_by_area(mesh, tolerance_box,
+                           borders == Borders::Stay ? static_cast<unsigned>(meshopt_SimplifyLockBorder) : 0U);
     const TriangleMesh lost = result.indices.empty() ? mesh : lost_part(mesh, result, tolerance_box);
-    append(result, simplify(lost, tolerance_box / 3.0F));
+    append(result, simplify(lost, tolerance_box / 3.0F, borders));
     return result;
 }
 

@@ -21,6 +21,9 @@ inline constexpr float max_tolerances_lost = 8.0F;
 /// Quadrics are weighted by area, so a blade may shrink to its hilt at no cost, because its tip has hardly
 /// any area. Parts that are lost in this way, by more than `max_tolerances_lost`, are put back, simplified
 /// by a third of the tolerance. They overlap the remains.
-[[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box);
+/// Open borders may move, too, unless they stay: where another mesh goes on, no gap may open.
+enum class Borders { Move, Stay };
+[[nodiscard]] TriangleMesh simplify(const TriangleMesh& mesh, float tolerance_box,
+                                    Borders borders = Borders::Move);
 
 } // namespace frustumscreen::bake

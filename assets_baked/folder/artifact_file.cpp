@@ -208,8 +208,9 @@ void refuse_misplaced_key(const toml::table& root, std::span<const std::string> 
                 return apart(a.key) < apart(b.key);
             });
         const std::size_t distance = apart(nearest->key);
-        const bool is_outer = std::any_of(outer_keys.begin(), outer_keys.end(),
-                                          [&](std::string_view outer) { return apart(outer) <= distance; });
+        const bool is_outer = std::any_of(outer_keys.begin(), outer_keys.end(), [&](std::string_view outer) {
+            return (outer != "site" || node.is_table()) && apart(outer) <= distance; // `titel` is no table
+        });
         if (!is_outer && 3 * distance <= name.size() + 1 && (!first || line < first->first)) {
             const std::string found = distance == 0
                                           ? std::string(name)

@@ -122,6 +122,14 @@ TEST(ArtifactFile, languages_are_the_same_in_any_capital_letters) {
     EXPECT_EQ(read->hotspots[0].labels, (std::vector<pack::PackLabel>{{"zh-Hant-TW", "y"}, {"en", "x"}}));
 }
 
+TEST(ArtifactFile, a_site_may_be_an_empty_table) {
+    EXPECT_FALSE(parse_artifact_file("scan = 'a.stl'", "artifact.toml")->site);
+    EXPECT_EQ(parse_artifact_file("scan = 'a.stl'\n[site]", "artifact.toml")->site->max_triangles, 150'000);
+    EXPECT_EQ(parse_artifact_file("scan = 'a.stl'\n[site]\nmax_triangles = 2000", "artifact.toml")
+                  ->site->max_triangles,
+              2000);
+}
+
 TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
     const std::string scan = "scan = \"a.stl\"\n";
     const std::vector<std::pair<std::string, std::string>> wrong{
@@ -188,6 +196,13 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
         {"title = \"Jug\"", ":2: title belongs below a line [[texts]]"},
         {"titel = \"Jug\"",
          ":2: titel is not a known key; the nearest one, title, belongs below a line [[texts]]"},
+        {"[sites]", ":2: sites is not a known key; the nearest allowed key is site"},
+        {"[site]\nmax_triangle = 9",
+         ":3: site.max_triangle is not a known key; the nearest allowed key is site.max_triangles"},
+        {"[site]\nmax_triangles = 9", ":3: site.max_triangles is 9"},
+        {"max_triangles = 2000", ":2: max_triangles belongs below a line [site]"},
+        {"[site]\n[[behaviours]]\nname = \"open\"\nanimation = \"Lid\"",
+         ":2: site stands beside [[behaviours]]"},
         {"turn_deg = 3\ntitle = \"Jug\"", ":2: turn_deg belongs below a line [placement]"},
         {"labels = { en = \"x\" }", ":2: labels belongs below a line [[hotspots]]"},
         {"# caf\xE9", ":2: is not UTF-8; save the file as UTF-8"},
