@@ -2,7 +2,7 @@
 ///
 /// Marked   the region that the light of a held torch falls on; without a torch the one that lies behind the prop's middle for the eye.
 ///          Another one is marked when it has been so for `dwell`.
-/// Beam     a press goes to the marked region, another one back to the miniature. For `fades` nothing moves, while the picture fades from
+/// Way      a press goes to the marked region, another one back to the miniature. For `fades` nothing moves, while the picture fades from
 ///          the whole to its regions. Then the view goes from one to the other within `seconds_per_octave` for each doubling
 ///          of the size; a press on the way turns back from there. No place of the site jumps.
 /// Ends     without a visitor the view goes back; with another artifact, or where none is shown, it is the miniature's at once.

@@ -2,7 +2,7 @@
 ///
 /// Frame    box: of the whole site as the prop shows it in miniature (pack.h); the site's places and the places where they appear
 ///          are both in it.
-/// Beam     on the way from one view to another the size goes exponentially with the share of the way, so that it grows by the
+/// Way      on the way from one view to another the size goes exponentially with the share of the way, so that it grows by the
 ///          same factor in each moment. Every place of the site goes along a straight line, and never back.
 /// Threads  pure; any.
 /// Errors   none; numbers that are not finite give such views.
