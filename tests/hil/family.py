@@ -26,6 +26,9 @@ class Ended(KeyboardInterrupt):
 
 
 def _raise_ended(number, _frame):
+    """Once: who ends a family repeats the signal, which must not cut off what a process of it tidies up."""
+    for each in SIGNALS:
+        signal.signal(each, lambda *_: None)
     raise Ended(number)
 
 

@@ -74,11 +74,16 @@ print(beside([killed, lambda: 2, wrong]))
         program = MEET + """
 from family import Ended, Family
 def sleeps(name):
-    import subprocess
-    program = subprocess.Popen(["sleep", "1000"], start_new_session=True)
-    print(program.pid)
-    end_block()
-    program.wait()
+    import shutil, subprocess, tempfile
+    folder = tempfile.mkdtemp()
+    try:
+        program = subprocess.Popen(["sleep", "1000"], start_new_session=True)
+        print(program.pid, folder)
+        end_block()
+        program.wait()
+    finally:
+        time.sleep(0.5) # the signal comes again meanwhile
+        shutil.rmtree(folder)
 try:
     with Family():
         beside([lambda: sleeps("one"), lambda: sleeps("two")])
@@ -86,11 +91,12 @@ except Ended as ended:
     os._exit(ended.status)
 """
         with subprocess.Popen([sys.executable, "-c", program], cwd=HIL, text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
-            sleepers = [int(process.stdout.readline().split()[1]) for _ in range(2)]
+            said = [process.stdout.readline().split() for _ in range(2)]
             process.send_signal(signal.SIGTERM)
             self.assertEqual(process.wait(30.0), 128 + signal.SIGTERM)
-        for sleeper in sleepers:
-            self.assertIn(state(sleeper), "Z", "a program outlives the run")
+        for _, sleeper, folder in said:
+            self.assertIn(state(int(sleeper)), "Z", "a program outlives the run")
+            self.assertFalse(pathlib.Path(folder).exists(), "a piece of work could not tidy up")
 
 
 class MachinesTest(unittest.TestCase):
