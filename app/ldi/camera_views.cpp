@@ -67,8 +67,9 @@ float CameraDepths::farthest(int x, int y, double around_px) const {
     for (std::size_t k = 0; k < levels_.size(); ++k) {
         if (around_px <= static_cast<double>(2U << k) || k + 1 == levels_.size()) {
             const int square = 2 << k;
-            return levels_[k]
-                .nearness[static_cast<std::size_t>(y / square * levels_[k].columns + x / square)];
+            const auto row = static_cast<std::size_t>(y / square),
+                       column = static_cast<std::size_t>(x / square);
+            return levels_[k].nearness[row * static_cast<std::size_t>(levels_[k].columns) + column];
         }
     }
     return 0.0F;

@@ -106,21 +106,22 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
            "beforehand for the eyes above the window")
         .one_of({"geometry", "patches"})
         .capture_default_str();
+    app.add_option(
            "--site", request.site,
            "draw a part of a site large: the place X,Y of its ground in the prop's middle, ZOOM times "
            "larger than the miniature")
         .check(is_site())
         .type_name("X,Y,ZOOM");
-           app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
-           app.add_flag("--aov", request.options.hit_points,
-                        "also write hit points (frame_00000.pfm; prop frame, metres)");
-           const std::optional<int> end = app.end_of_arguments(argc, argv);
-           request.options.light = !request.no_light;
-           if (request.view == "projector") {
-               request.options.width = request.width;
-               request.options.height = request.height;
-           }
-           return end;
+    app.add_flag("--no-light", request.no_light, "do not compensate the projector's fall-off");
+    app.add_flag("--aov", request.options.hit_points,
+                 "also write hit points (frame_00000.pfm; prop frame, metres)");
+    const std::optional<int> end = app.end_of_arguments(argc, argv);
+    request.options.light = !request.no_light;
+    if (request.view == "projector") {
+        request.options.width = request.width;
+        request.options.height = request.height;
+    }
+    return end;
 }
 
 /// Warns about places off the table: poses in millimetres, or in a tracker's frame, give dark pictures.
