@@ -171,8 +171,8 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
     technique_ = names_of(sources);
     std::size_t indices = 0;
     for (const Source& source : sources) {
-        TRY(scene::PlacedLevel placed,
-            upload(source, look_of(scene.look, parts_.size()), renderer_->store()));
+        const Look look = look_of(scene.look, parts_.size());
+        TRY(scene::PlacedLevel placed, upload(source, look, renderer_->store()));
         placed.samples = samples_of(scene.setup.options, *scene.pack);
         placed.faces = source.plan.faces;
         indices += placed.triangles ? placed.triangles->indices.size() : 0;
@@ -180,10 +180,14 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
                                         : source.plan.seen[source.plan.quality_levels.front().level],
                           source.cell});
         parts_.push_back({std::move(placed), std::nullopt});
-        if (patches) {
+        if (patches && look.colours == nullptr) {
             const scene::SceneLevel level = level_of(source);
-            kept_.push_back({level, source.pack.textures[level.mesh.texture]});
+            kept_.push_back(
+                {level, look.texture != nullptr ? *look.texture : source.pack.textures[level.mesh.texture]});
         }
+    }
+    if (kept_.size() < parts_.size()) {
+        kept_.clear();
     }
     if (scene.world) {
         cells_ = scene.world->cells;

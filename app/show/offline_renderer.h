@@ -112,7 +112,8 @@ private:
     torch::Beam beam_;
     scene::TextureId torch_picture_ = scene::TextureId::None;
     std::size_t film_frame_ = 0;
-    std::vector<Kept> kept_; ///< one for each of `parts_`; empty: no patches are made
+    std::vector<Kept>
+        kept_; ///< one for each of `parts_`; empty: no patches are made, as for a relief in a state's layer
     std::vector<std::unique_ptr<const Window>> windows_;
     std::vector<scene::PlacedWindow> placed_windows_;
     std::vector<scene::FramePlan> plans_; ///< one for each eye
