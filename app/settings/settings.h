@@ -250,7 +250,7 @@ inline constexpr std::size_t max_windows = 6;
 struct WindowSettings {
     std::size_t count = 0; ///< that lie there at once, up to max_windows; 0: none can be pinned
     double width_m = 0.12, depth_m = 0.12; ///< of each
-    bool live = false; ///< behaviours go on in a window; otherwise it is frozen
+    bool live = false;                     ///< behaviours go on in a window; otherwise it is frozen
 
     [[nodiscard]] bool exist() const { return count > 0; }
 };

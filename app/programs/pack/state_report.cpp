@@ -3,10 +3,10 @@
 #include "app/pack/pack_states.h"
 #include "app/pack/pack_torches.h"
 #include "app/pack/pack_world.h"
+#include "firmware_host/base/json.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <vector>
 
