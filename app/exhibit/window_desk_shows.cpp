@@ -1,4 +1,4 @@
-// What the desk's windows show: the lens, and each window's place beside its title.
+// The contents of the desk's windows: the lens, and each window's place beside its title.
 #include "app/exhibit/window_desk.h"
 #include "app/geometry/time_curves.h"
 #include "app/typography/visitor_side.h"

@@ -1,4 +1,4 @@
-/// What the next press pins: first what the prop shows, then, while the prop hardly moves, the artifact's states one by one in
+/// Chooses the view that the next press pins: first what the prop shows, then, while the prop hardly moves, the artifact's states one by one in
 /// the same view.
 ///
 /// Frames   table T, metres.
@@ -26,7 +26,7 @@ public:
     /// A prop that moves farther begins a new history.
     static constexpr double max_move_m = 0.010, max_turn_deg = 5.0;
 
-    /// What a press pins now. `seen`: what the prop shows, without a state. `states`: how many the artifact has.
+    /// The view that a press pins now. `seen`: what the prop shows, without a state. `states`: how many the artifact has.
     [[nodiscard]] ViewToPin next(std::size_t artifact, std::size_t states, const ViewToPin& seen) const {
         if (!first_ || artifact != artifact_ || pinned_ > states || moved(seen)) {
             return seen;

@@ -19,7 +19,7 @@ namespace frustumscreen::pack {
 
 struct PackSite {
     std::uint64_t max_triangles = 0; ///< of a region, as the bake was told; 1 to 2^32 - 1
-    /// Of each region the middle of its ground, as high as its lowest places that are seen from above.
+    /// The middle of each region's ground, as high as its lowest places that are seen from above.
     std::vector<glm::dvec3> places;
 
     [[nodiscard]] bool operator==(const PackSite&) const = default;
@@ -34,7 +34,7 @@ void put_site(const PackSite& site, PackDescription& pack);
 struct SiteRegion {
     glm::dvec3 low{0.0}, high{0.0};
 };
-/// Of the cells with geometry, in their order; empty: the pack is no site. A site without such cells, whose cells move, or whose places
+/// The regions of the cells with geometry, in their order; empty: the pack is no site. A site without such cells, whose cells move, or whose places
 /// are not in their regions, is an error.
 [[nodiscard]] Result<std::vector<SiteRegion>> site_regions_of(const PackDescription& pack);
 

@@ -14,7 +14,7 @@ struct Range {
     float least = std::numeric_limits<float>::infinity(), greatest = 0.0F;
 };
 
-/// Of the hits in a rectangle.
+/// The nearnesses of the hits in a rectangle.
 Range range_of(const PixelRectangle& tile, const relief::PictureSpan<const float>& nearness) {
     Range range;
     for (int y = tile.y; y < tile.y + tile.height; ++y) {

@@ -56,7 +56,7 @@ private:
     int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
                   const ShaderCache& shaders, bool colours);
 
-    /// Of what was drawn into the target. Returns the number of draw calls.
+    /// Makes the shadow map of the depths in the target. Returns the number of draw calls.
     int find_farthest(const Target& target, const ShaderCache& shaders) const;
 
     gl::GlTexture drawn_depth_;   ///< of one torch after the other

@@ -290,7 +290,7 @@ void main() {
 }
 )";
 
-/// Of pixels of one sample each.
+/// The light on pixels of one sample each.
 inline constexpr std::string_view torch_on_pixels = R"(
 uniform highp sampler2D depths;
 uniform mat4 torch_from_projector; // as above
@@ -310,7 +310,7 @@ void main() {
 }
 )";
 
-/// Of what a torch sees, drawn by the GPU: the depth of each texel and of the next ones to the right and below, the farthest.
+/// The shadow map of depths that the GPU has drawn: of each texel and the next ones to the right and below, the farthest.
 inline constexpr std::string_view farthest_depths = R"(
 uniform highp sampler2D depths;
 void main() {

@@ -1,4 +1,4 @@
-// What windows show of an artifact's cells: its states, and the cells as they move.
+// The cells of an artifact as windows show them: its states, and the cells as they move.
 #include "app/residency/run_cells.h"
 #include "app/scene/cell_plan.h"
 

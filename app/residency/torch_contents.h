@@ -1,4 +1,4 @@
-/// What torches throw onto the artifact on show, in memory: pictures, films and layers of its pack; and the layers of its
+/// Keeps in memory all that torches throw onto the artifact on show: pictures, films and layers of its pack; and the layers of its
 /// states. Only an exhibit with torches, or with windows that show such states, has one.
 ///
 ///     step, once a frame: what the lights throw -> BackgroundReader -> one upload a frame -> shown

@@ -107,7 +107,7 @@ struct PlacedWindow {
     /// The world behind it, placed in the window's frame as a prop's world is in the prop's.
     std::span<const Part> parts;
     double brightness = 1.0; ///< as PlanView::brightness
-    /// What eyes see of the parts, drawn in their place where it is ready (window_patches.h); null: nothing is.
+    /// Points that eyes see of the parts, drawn in their place where they are ready (window_patches.h); null: none are.
     const WindowPatches* patches = nullptr;
 };
 

@@ -18,7 +18,7 @@ namespace {
 /// A beam is widened by this, for numbers of 32 bits.
 constexpr double margin_m = 1e-6;
 
-/// Of a pose's frame: the largest factor of a length.
+/// The largest factor of a length in a pose's frame.
 double scale_of(const glm::dmat4& frame) {
     double scale = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -212,7 +212,7 @@ private:
             }
         }
     }
-    /// Of the ideal pinhole. A lens bends a triangle's corners, not its edges.
+    /// In the pixels of the ideal pinhole. A lens bends a triangle's corners, not its edges.
     void light_rectangle(glm::dvec2 low, glm::dvec2 high) {
         if (!lit_.pinhole.lens.is_plain()) {
             constexpr double sagitta_px = 8.0;

@@ -34,7 +34,7 @@ inline constexpr double min_eye_share = 0.7, max_eye_share = 1.5;
 /// The patch as a part of the window's world.
 [[nodiscard]] Part part_of(const WindowPatches& patches, const ldi::PointPatch& points);
 
-/// What a renderer needs to draw points, beside its other needs.
+/// Adds to a renderer's needs those of drawing points.
 [[nodiscard]] RenderNeeds with_points(RenderNeeds needs);
 
 } // namespace frustumscreen::scene

@@ -1,4 +1,4 @@
-// What lies on the table beside the artifact: captions, titles, signs, a site's map, the zone's frame.
+// Places all that lies on the table beside the artifact: captions, titles, signs, a site's map, the zone's frame.
 #include "app/scene/beyond_prop.h"
 #include "app/show/artifact_show.h"
 

@@ -16,10 +16,10 @@ namespace {
 constexpr double patch_ms_per_sample = 2e-5;
 /// Patches that save less are not worth that outlines grow by half a pixel.
 constexpr double min_gain = 2.0;
-/// Of a level's triangles the eye sees about half.
+/// The eye sees about half of a level's triangles.
 constexpr double seen_share = 0.5;
 
-/// What the worker keeps of a window to read its world.
+/// The worker keeps this of a window to read its world.
 struct ToRead {
     std::filesystem::path file;
     pack::PackOutline outline;

@@ -24,7 +24,7 @@
 
 namespace frustumscreen::show {
 
-/// What a window froze.
+/// A view that a window froze.
 struct FrozenWindow {
     std::uint32_t number = 0;
     const residency::KnownArtifact& known;
@@ -46,7 +46,7 @@ class FrozenWindows {
 public:
     FrozenWindows(const settings::ProjectorSettings& projector, bool waits);
 
-    /// Of frames on this GPU; before, no patches are made.
+    /// `cost`: of frames on this GPU; before, no patches are made.
     void set_cost(const scene::FrameCost& cost) { cost_ = cost; }
     /// Begins the window's patches, in place of those that it had.
     void freeze(const FrozenWindow& window);
@@ -54,7 +54,7 @@ public:
     void forget(std::uint32_t number);
     /// Begins with this world; `freeze` without the choice.
     void begin(std::uint32_t number, PatchJobSetUp set_up);
-    /// What is ready for a window, which these eyes look at, window's frame; null: it has no patches.
+    /// The patches that are ready for a window, which these eyes look at, window's frame; null: it has none.
     [[nodiscard]] const scene::WindowPatches* look(std::uint32_t number, std::span<const glm::dvec3> eyes);
     /// Once a frame, after all `look`: forgets windows that are not among these, and gives the thread its work.
     void step(std::span<const exhibit::PresentedWindow> windows);

@@ -110,7 +110,7 @@ Result<world::SiteView> site_view_of(const pack::PackDescription& pack, const Of
     return world::view_of({site.place_box, regions[*region].low.z}, site.zoom);
 }
 
-/// Of a site's region at a zoom: the coarsest level within the tolerance, otherwise the finest.
+/// The level of a site's region at a zoom: the coarsest level within the tolerance, otherwise the finest.
 Result<std::string> technique_at(const settings::Settings& settings, const pack::PackOutline& region,
                                  const scene::ScenePlan& whole, double metres_per_box) {
     TRY(const scene::SeenByEyes seen, scene::seen_by_eyes(region));

@@ -46,7 +46,7 @@ public:
     /// `eyes`: of the layout. `waits`: patches (frozen_windows.h) are made at once, so that a run of simulated time is repeatable.
     WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes,
                bool waits);
-    /// Of frames on this GPU.
+    /// `cost`: of frames on this GPU.
     void set_cost(const scene::FrameCost& cost) { frozen_.set_cost(cost); }
     /// Uploads the frame's texel.
     [[nodiscard]] Result<void> prepare(render::GpuStore& store);

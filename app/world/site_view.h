@@ -35,7 +35,7 @@ struct SiteView {
 /// `share` of the way, 0..1.
 [[nodiscard]] SiteView between(const SiteView& from, const SiteView& to, double share);
 
-/// Of a region, box frame.
+/// A region's box, box frame.
 struct RegionBox {
     glm::dvec3 low{0.0}, high{0.0};
 };

@@ -312,7 +312,7 @@ TEST(Collineation, APointOfTheFaceItselfIsDrawnWhereTheProjectorSeesIt) {
     }
 }
 
-/// What lies before the face is nearer than the nearest depth, what lies behind it within the depths, and farther along an eye ray is
+/// A point before the face is nearer than the nearest depth, a point behind it is within the depths, and farther along an eye ray is
 /// farther in depth; each point is on the pixel that `collineation` has for it.
 TEST(CollineationBehind, CutsAtTheFaceAndReachesToInfinity) {
     Random random(36);

@@ -70,7 +70,7 @@ TEST(PointMaker, MakesThePatchThatIsLookedAtFirstAndItsNeighboursNext) {
     }
 }
 
-/// Of every place of the hemisphere's cap, at most a few pixels are empty that the rasterizer fills.
+/// From every place of the hemisphere's cap, at most a few pixels are empty that the rasterizer fills.
 TEST(PointMaker, AnEyeAnywhereInAPatchSeesNoHoles) {
     constexpr int px = 96;
     const Hemisphere hemisphere(eye_distance_m);

@@ -23,7 +23,7 @@
 
 namespace frustumscreen::programs {
 
-/// Of the largest size inside the prop, so that the open lid stays inside too.
+/// Share of the largest size inside the prop, so that the open lid stays inside too.
 inline constexpr double scale = 0.5;
 
 /// A box in its own frame, and where that stands at rest in its parent's: T * R * S, as a glTF file has it.

@@ -39,7 +39,7 @@ struct Mesh {
     }
 };
 
-/// Of the nearest triangle: 1 / z on a ray, 0 without a hit. `wider`: the triangle grows by that share of itself, or shrinks.
+/// The nearest triangle's 1 / z on a ray, 0 without a hit. `wider`: the triangle grows by that share of itself, or shrinks.
 double nearness_on(const Mesh& mesh, const glm::dvec3& ray, double wider) {
     double nearest = 0.0;
     for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
