@@ -30,13 +30,6 @@ class Run:
     took_s: float
     stood_s: float  # the longest that a picture stood while it should move
     wrong: list = field(default_factory=list)  # names of tests
-    took: list = field(default_factory=list)  # (seconds, name) of each test, and of the machine's start
-
-
-def together(runs):
-    """One Run of those in machines beside each other."""
-    return Run(max(run.load_average for run in runs), max(run.took_s for run in runs), max(run.stood_s for run in runs),
-               [name for run in runs for name in run.wrong], [each for run in runs for each in run.took])
 
 
 def as_text(table):

@@ -1,7 +1,5 @@
 #!/usr/bin/python3
-"""Hardware in the loop: makes the guest, starts it, runs the tests in it. `./test hil` calls this.
-
-All tests of each change run in two machines beside each other: one leaves much of two processors idle."""
+"""Hardware in the loop: makes the guest, starts it, runs the tests in it. `./test hil` calls this."""
 
 import argparse
 import os
@@ -13,17 +11,14 @@ import unittest
 
 import image
 from bench import Bench
-from beside import beside, end_block
 from family import Ended, Family
 from hil_test import HilTest, is_long
-from repeat import Load, Run, as_text, together
+from repeat import Load, Run, as_text
 
-# Of each machine, in this order, because later tests rely on earlier ones; how long they take is about the same for both.
-MACHINES = (("boot", "pose", "watch", "trackers", "buttons", "unplug", "camera", "camera_uses", "misbehaviour", "storm", "latency",
-             "table", "calibration", "guidance", "stereo", "display", "screen", "torch", "windows"),
-            ("stick", "stick_report", "stick_copy", "stick_hostile", "stick_storm", "settings", "missing", "vblank", "restart", "safe",
-             "status", "hours", "watchdog", "delivery"))
-LAST = "kernel"  # of each
+# in this order, because later tests rely on earlier ones
+MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "camera", "camera_uses", "misbehaviour", "storm", "latency", "stick", "stick_report",
+           "stick_copy", "stick_hostile", "stick_storm", "settings", "missing", "table", "calibration", "guidance", "stereo", "display", "screen", "torch", "windows", "vblank", "restart", "safe",
+           "status", "hours", "watchdog", "delivery", "kernel")
 SLOWEST = 10  # tests that are named at the end
 
 
@@ -55,7 +50,6 @@ class Verdicts(unittest.TextTestResult):
         took_s = time.monotonic() - self._begun
         self.took.append((took_s, test.id()))
         self.stream.writeln(f"    {took_s:.0f} s")
-        end_block()
 
     def _keep(self, test, error):
         folder = HilTest.bench.evidence_of(test)
@@ -88,32 +82,20 @@ def parse_arguments():
                         help="the tests whose name contains NAME, long ones too")
     parser.add_argument("--all", action="store_true", help="the long tests too")
     parser.add_argument("--list", action="store_true", help="the tests' names, and nothing else")
-    parser.add_argument("--machines", metavar="N", type=int, choices=range(1, 1 + len(MACHINES)),
-                        help="so many beside each other; 2 if neither --only, --all nor --keep is given, which have 1")
     parser.add_argument("--repeat", metavar="N", type=int, default=1,
-                        help="N times, each with fresh machines; a table at the end")
+                        help="N times, each with a fresh machine; a table at the end")
     parser.add_argument("--load", metavar="N[,N...]", default="0", type=numbers,
                         help="with so many busy loops beside it; of several, one after another")
-    parser.add_argument("--keep", action="store_true", help="leave the last machines up, and say how to get a shell in them")
+    parser.add_argument("--keep", action="store_true", help="leave the last machine up, and say how to get a shell in it")
     parser.add_argument("--out", type=pathlib.Path, default=image.CHECKOUT / "out" / "hil",
                         help="where to leave what was found; emptied first")
-    arguments = parser.parse_args()
-    if arguments.machines is None:
-        arguments.machines = 1 if arguments.only or arguments.all or arguments.keep or os.cpu_count() == 1 else len(MACHINES)
-    return arguments
+    return parser.parse_args()
 
 
-def modules(machines):
-    """Of each of so many machines."""
-    if machines == len(MACHINES):
-        return [[*each, LAST] for each in MACHINES]
-    return [[module for each in MACHINES for module in each] + [LAST]]
-
-
-def chosen(arguments, names, unsigned=None):
-    """The tests of these modules to run, made again for each run, because unittest drops tests that it ran. `unsigned`: only those
-    whose machine takes a kernel module without a signature, or only the others."""
-    tests = flat(unittest.defaultTestLoader.loadTestsFromNames(f"test_{name}" for name in names))
+def chosen(arguments, unsigned=None):
+    """The tests to run, made again for each run, because unittest drops tests that it ran. `unsigned`: only those whose machine
+    takes a kernel module without a signature, or only the others."""
+    tests = flat(unittest.defaultTestLoader.loadTestsFromNames(f"test_{name}" for name in MODULES))
     tests = [test for test in tests if unsigned in (None, test.unsigned)]
     if arguments.only:
         return [test for test in tests if any(name in test.id() for name in arguments.only.split(","))]
@@ -127,21 +109,21 @@ def made(out, unsigned):
     return out, image.disk(packs, out / "disk.raw"), packs
 
 
-def run(tests, make_bench, keep):
-    """Runs the tests in one machine. A Run of those that failed has their evidence in the bench's folder."""
-    bench = make_bench()
+def run(tests, bench, keep):
+    """The result of the tests, and the evidence that they collected."""
     HilTest.bench, HilTest.longest_s = bench, 0.0
     try:
         say("starting the machine")
         start_s = bench.start()
         say(f"it is up after {start_s:.0f} s")
-        end_block()
         begun = time.monotonic()
         result = unittest.TextTestRunner(resultclass=Verdicts, verbosity=2).run(unittest.TestSuite(tests))
         took_s = time.monotonic() - begun
-        say(f"{result.testsRun} tests in {took_s:.0f} s in this machine")
+        for seconds, name in sorted([(start_s, "the machine's start"), *result.took], reverse=True)[:SLOWEST]:
+            print(f"   {seconds:6.0f} s   {name}")
+        say(f"{result.testsRun} tests in {took_s:.0f} s, the slowest above; logs in {bench.out}")
         wrong = [test.id() for test, _ in (*result.failures, *result.errors)]
-        return Run(os.getloadavg()[1], took_s, HilTest.longest_s, wrong, [(start_s, "the machine's start"), *result.took])
+        return Run(os.getloadavg()[1], took_s, HilTest.longest_s, wrong)
     finally:
         if keep:
             print(bench.how_to_enter())
@@ -149,30 +131,9 @@ def run(tests, make_bench, keep):
             bench.stop()
 
 
-def run_in_machines(shares, parts, folder, keep):
-    """Runs each share of the tests in a machine of its own. `parts`: what made() returned."""
-    if len(shares) == 1:
-        done = run(shares[0], lambda: Bench(*parts, folder), keep)
-    else:
-        def in_one(number, tests):
-            out = folder / f"machine_{number}"
-            out.mkdir()
-            return run(tests, lambda: Bench(*parts, out), keep)
-
-        runs = beside([lambda number=number, tests=tests: in_one(number, tests) for number, tests in enumerate(shares, 1)])
-        done = together([each or Run(0.0, 0.0, 0.0, [f"machine {number} (its process ended)"]) for number, each in enumerate(runs, 1)])
-    for seconds, name in sorted(done.took, reverse=True)[:SLOWEST]:
-        print(f"   {seconds:6.0f} s   {name}")
-    say(f"{done.took_s:.0f} s; the slowest are above, logs in {folder}")
-    for name in done.wrong:
-        say(f"{name} failed")
-    return done
-
-
 def main(family):
     arguments = parse_arguments()
-    shares = modules(arguments.machines)
-    tests = chosen(arguments, modules(1)[0])
+    tests = chosen(arguments)
     if arguments.list:
         print("\n".join(test.id() for test in tests))
         return 0
@@ -182,16 +143,15 @@ def main(family):
 
     out = arguments.out.resolve()
     shutil.rmtree(out, ignore_errors=True)
-    kinds = sorted({test.unsigned for test in tests})
+    kinds = [unsigned for unsigned in (False, True) if chosen(arguments, unsigned)]
     runs = [(loops, number, unsigned) for loops in arguments.load for number in range(1, arguments.repeat + 1) for unsigned in kinds]
     table = []
     for loops, number, unsigned in runs:
         folder = out if len(runs) == 1 else out / f"load_{loops}_run_{number}{'_unsigned' if unsigned else ''}"
-        parts = made(folder / "machine", unsigned)
+        files, disk, packs = made(folder / "machine", unsigned)
         family.keep = arguments.keep and (loops, number, unsigned) == runs[-1]
         with Load(loops):
-            of_machines = [chosen(arguments, names, unsigned) for names in shares]
-            done = run_in_machines([share for share in of_machines if share], parts, folder, family.keep)
+            done = run(chosen(arguments, unsigned), Bench(files, disk, packs, folder), family.keep)
         table.append((loops, number, done))
         if len(runs) > 1:
             (out / "table.txt").write_text(as_text(table), encoding="utf-8")
