@@ -106,7 +106,7 @@ void SiteTravel::press(MonotonicTime now, const Input& input) {
     }
 }
 
-/// Each turn begins anew with an eased way, from where the view is.
+/// Turns back at the present share of the way; the speed starts from 0 again.
 void SiteTravel::turn(MonotonicTime now, bool into) {
     from_ = share_at(now);
     turned_ = std::max(now, turned_);

@@ -7,6 +7,7 @@
 
 #include "app/geometry/transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>

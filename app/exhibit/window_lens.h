@@ -1,8 +1,8 @@
 /// Through the lens: while it is on, the newest window's content follows the prop. Turning the prop about the vertical turns it;
 /// lifting the prop or drawing it near makes it larger, lowering it or pushing it away smaller.
 ///
-/// Ends     when the prop, once moved, has been still for `still`; when nobody moves it for `waits`; with any press; when the
-///          prop's pose is unknown.
+/// Ends     when the prop was moved and has been still for `still`; when nobody has moved it for `waits`; at any press;
+///          without a pose of the prop.
 /// Units    metres, radians.
 /// Time     `now` never goes back.
 /// Threads  values; one caller. Allocates nothing.

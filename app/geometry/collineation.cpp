@@ -1,6 +1,8 @@
 #include "app/geometry/collineation.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace frustumscreen::geometry {
@@ -19,6 +21,23 @@ glm::dmat4 eye_onto_plane(const Plane& plane, const glm::dvec3& eye) {
     return m;
 }
 
+namespace {
+
+/// The range of w over some points: w <= 0 is above the eye or behind the projector, where nothing is drawn.
+struct Range {
+    double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+};
+Range w_range(const glm::dmat4& clip, std::span<const glm::dvec3> points) {
+    Range range;
+    for (const glm::dvec3& point : points) {
+        const double w = (clip * glm::dvec4(point, 1.0)).w;
+        range = {std::fmin(range.least, w), std::fmax(range.greatest, w)};
+    }
+    return range;
+}
+
+} // namespace
+
 std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye,
                                        const glm::dmat4& projector_clip_from_frame, const Box& box) {
     const glm::dvec3 centre = (box.low + box.high) * 0.5;
@@ -27,18 +46,13 @@ std::optional<glm::dmat4> collineation(const Plane& plane, const glm::dvec3& eye
         return std::nullopt;
     }
     glm::dmat4 clip = projector_clip_from_frame * eye_onto_plane(plane, eye);
-
-    // w over the box's corners; w <= 0 is above the eye or behind the projector, where nothing is drawn.
-    double least = std::numeric_limits<double>::infinity();
-    double greatest = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 x((corner & 1) != 0 ? box.high.x : box.low.x,
-                           (corner & 2) != 0 ? box.high.y : box.low.y,
-                           (corner & 4) != 0 ? box.high.z : box.low.z);
-        const double w = (clip * glm::dvec4(x, 1.0)).w;
-        least = std::fmin(least, w);
-        greatest = std::fmax(greatest, w);
+    std::array<glm::dvec3, 8> corners{};
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+        corners[corner] = {(corner & 1U) != 0 ? box.high.x : box.low.x,
+                           (corner & 2U) != 0 ? box.high.y : box.low.y,
+                           (corner & 4U) != 0 ? box.high.z : box.low.z};
     }
+    const auto [least, greatest] = w_range(clip, corners);
     if (!(greatest > 0.0) || !std::isfinite(greatest)) {
         return std::nullopt;
     }
@@ -67,13 +81,7 @@ std::optional<glm::dmat4> collineation_behind(const Plane& plane, const glm::dve
         return std::nullopt;
     }
     glm::dmat4 clip = projector_clip_from_frame * eye_onto_plane(plane, eye);
-    double least = std::numeric_limits<double>::infinity();
-    double greatest = 0.0;
-    for (const glm::dvec3& corner : corners) {
-        const double w = (clip * glm::dvec4(corner, 1.0)).w;
-        least = std::fmin(least, w);
-        greatest = std::fmax(greatest, w);
-    }
+    const auto [least, greatest] = w_range(clip, corners);
     if (!(least > 0.0) || !std::isfinite(greatest)) {
         return std::nullopt;
     }

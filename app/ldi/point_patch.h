@@ -30,7 +30,7 @@ struct PointPatch {
     std::vector<float> nearness;        ///< at the pixel's middle; 0: an empty point
     std::vector<std::uint32_t> slopes;  ///< two signed halves: a pixel to the right, a pixel down
     std::vector<std::uint32_t> colours; ///< red in the lowest byte
-    std::uint64_t number = 0;           ///< for whoever gives patches numbers; drawing does not use it
+    std::uint64_t number = 0;           ///< the maker's; a picture's hash takes it in place of the points
 
     [[nodiscard]] std::uint64_t bytes() const {
         return places.size() * (sizeof places[0] + sizeof nearness[0] + sizeof slopes[0] + sizeof colours[0]);

@@ -30,7 +30,7 @@ void put_site(const PackSite& site, PackDescription& pack);
 /// None: the pack is no site.
 [[nodiscard]] Result<std::optional<PackSite>> site_of(const PackDescription& pack);
 
-/// A region's box from its ground up, box units: below it is what nobody sees, such as the bottom of a model's base.
+/// A region's box from its ground up, box units. It leaves out surfaces that cannot be seen, such as the bottom of a model's base.
 struct SiteRegion {
     glm::dvec3 low{0.0}, high{0.0};
 };

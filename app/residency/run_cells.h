@@ -73,7 +73,7 @@ public:
     void show_site(const std::optional<world::SiteView>& view) { site_ = view; }
     /// Marks a region of the miniature for the next frames; none: no mark.
     void mark(const std::optional<world::RegionBox>& region);
-    /// What RunLevels::draw draws beside the whole.
+    /// The parts that RunLevels::draw draws beside the whole.
     [[nodiscard]] std::span<const scene::Part> marks() const { return marks_; }
     /// The mark of a site, to upload after the levels of the cells; none: it is no site.
     [[nodiscard]] std::optional<scene::LevelData> take_mark_data() {

@@ -22,7 +22,7 @@ namespace frustumscreen::torch {
 
 class ShadowMap {
 public:
-    /// Of `width` x `height` pixels, up to 4096 each; draws nothing yet.
+    /// Clears the map to `width` x `height` pixels, up to 4096 each.
     void begin(int width, int height);
 
     struct View {

@@ -5,7 +5,7 @@
 ///          commands measure, is no error of the light.
 /// Shadows  by rays against the drawn surface. A pixel counts as lit, or as in shadow, if nine rays say so: through its point, and
 ///          on a circle of one pixel of the torch's own picture around it; the surface beside the point is taken as flat.
-///          What lies less than 0.02 mm before that plane is part of it. A point is clearly in shadow if it lies farther behind
+///          A hit less than 0.02 mm before that plane counts as the surface itself. A point is clearly in shadow if it lies farther behind
 ///          the caster than one such pixel is wide, or if the torch meets its surface from behind. Within a degree of
 ///          edge-on it is unclear.
 /// Left out others, those within one such pixel of the beam's edge and within 1 % of its reach, and the points that
