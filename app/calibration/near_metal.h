@@ -1,7 +1,7 @@
 /// Finds out whether metal near one place bends what an electromagnetic tracker reports.
 ///
-/// Method   Metal answers the source's field as a small dipole. Four unknowns: its place and its strength. What the tracker
-///          then reports wrongly is computed to first order. Places on a grid about the touches are tried, and the
+/// Method   Metal answers the source's field as a small dipole. Four unknowns: its place and its strength. The tracker's error
+///          that follows is computed to first order. Places on a grid about the touches are tried, and the
 ///          best is refined.
 /// Limits   The source must be the origin of the tracker's frame. Metal that is far away bends all touches smoothly: the
 ///          fit takes that up.

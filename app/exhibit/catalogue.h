@@ -37,7 +37,7 @@ struct CatalogueEntry {
     std::vector<DescriptionShape> descriptions{};
     HotspotSet hotspots{};
     std::vector<TriggeredBehaviour> behaviours{}; ///< in the pack's order
-    /// What a torch can throw onto it, in the pack's order: the size of each title, by `languages`; the height is 0 if there
+    /// The contents of a torch on it, in the pack's order: the size of each title, by `languages`; the height is 0 if there
     /// is none.
     std::vector<std::vector<glm::dvec2>> content_title_sizes_m{};
     /// Its states, which windows show, in the pack's order: the size of each title, by `languages`; the height is 0 if there is

@@ -152,7 +152,7 @@ private:
     [[nodiscard]] std::optional<PresentedCaption> caption(MonotonicTime now, const Shown& shown,
                                                           const tracking::TrackedState& tracked_state,
                                                           const DrawnPose& drawn);
-    /// What a text on the table must keep clear of: the artifacts' pictures, and the caption and label that are placed already.
+    /// Places that a text on the table must keep clear of: the artifacts' pictures, and the caption and label that are placed already.
     struct Obstacles {
         std::array<typography::TableRectangle, typography::CaptionPlacer::max_obstacles> places{};
         std::size_t count = 0;
@@ -180,7 +180,7 @@ private:
     /// Uses the artifact's brightness, and dims it.
     void throw_light(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                      const DrawnPose& drawn, Presentation& presentation);
-    /// What is said to a visitor whose torch lights nothing; none: nothing.
+    /// The advice to a visitor whose torch lights nothing; none: no advice.
     [[nodiscard]] std::optional<WordIndex> torch_word() const;
     [[nodiscard]] std::uint32_t torch_lamps() const;
     /// The picture of the title of what a held torch throws, among those of behaviours; none: it has none.

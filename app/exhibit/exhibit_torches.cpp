@@ -1,4 +1,4 @@
-// What torches throw onto the artifact, and the buttons of a torch that is held.
+// The contents that torches throw onto the artifact, and the buttons of a torch that is held.
 #include "app/exhibit/exhibit.h"
 
 namespace frustumscreen::exhibit {

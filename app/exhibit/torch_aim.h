@@ -51,7 +51,7 @@ struct TorchSpot {
     double half_along_m = 0.0, half_across_m = 0.0;
     double share = 0.0; ///< 0..1: softly 0 where the beam grazes the table, or comes from afar
 
-    /// Of the rectangle around it: top left, top right, bottom right, bottom left for a reader at the torch.
+    /// The corners of the rectangle around it: top left, top right, bottom right, bottom left for a reader at the torch.
     [[nodiscard]] std::array<glm::dvec2, 4> corners() const;
 };
 /// None where the beam's edge does not come down onto the table.

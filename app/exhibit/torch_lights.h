@@ -42,7 +42,7 @@ struct PresentedLight {
     std::size_t colour = 0;             ///< index into torch_colours
     bool left = false;                  ///< no torch is there any more
 };
-/// Of plain light and effects: the tracker's torch, and the lamp that a camera sees.
+/// The colours of plain light and effects: the tracker's torch, and the lamp that a camera sees.
 inline constexpr std::array<glm::vec3, tracking::max_tracked_torches> torch_colours{
     {{1.0F, 1.0F, 1.0F}, {0.55F, 0.80F, 1.0F}}};
 
@@ -80,7 +80,7 @@ public:
 
     /// A torch is in a hand: the buttons are its. As of the latest step.
     [[nodiscard]] bool held() const { return held_.has_value(); }
-    /// What the torch in the hand throws, or will in a moment; none: plain light, or none is held.
+    /// The content that the torch in the hand throws, or will in a moment; none: plain light, or none is held.
     [[nodiscard]] std::optional<std::size_t> content() const;
     /// The torch in the hand: where its light goes; none: none is held.
     [[nodiscard]] const std::optional<TorchAim>& aim() const { return aim_; }

@@ -32,7 +32,7 @@ struct PropFace {
 
 /// At most `max_faces` faces and `max_corners` corners (per_corner.h).
 struct PropShape {
-    /// Of a frustum or a cube: the existing ones of +X, -X, +Y, -Y, +Z, -Z, in this order.
+    /// In a frustum or a cube: the existing ones of +X, -X, +Y, -Y, +Z, -Z, in this order.
     std::vector<PropFace> faces;
     /// Bounding planes of the solid, outward: those of the faces first, then those that are never lit.
     std::vector<Plane> bounds;

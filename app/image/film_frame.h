@@ -15,7 +15,7 @@
 namespace frustumscreen::image {
 
 [[nodiscard]] Result<PictureExtent> extent_of_still(std::span<const std::byte> beginning);
-/// Of exactly this size.
+/// A still of another size is an error.
 [[nodiscard]] Result<Image8> decode_still(std::span<const std::byte> bytes, const PictureExtent& expected);
 /// Lossy colours, exact alpha; `quality` 0 to 100. Empty if WebP cannot hold it.
 [[nodiscard]] Bytes encode_film_frame(const Image8& image, float quality);

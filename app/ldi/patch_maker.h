@@ -3,7 +3,7 @@
 /// Frames   window (triangle_world.h). Units: metres.
 /// Time     none: a step is a count of triangles. 20,000 take some 5 ms on one core of the kiosk; a row of blocks, the
 ///          least piece of work, about as long.
-/// Threads  one at a time: a worker of the caller's. What it hands out may be read by any.
+/// Threads  one at a time: a worker of the caller's. Its results may be read by any.
 /// Memory   the patches; one patch that is being made (`PatchLimits::max_bytes`); a number a pixel for each of 29 cameras.
 /// Errors   none.
 #pragma once

@@ -1,8 +1,8 @@
 /// The look at a stick: finds its files, reads the set file and checks the signature of each pack. Nothing is
 /// copied.
 ///
-/// Errors   those of the stick as a whole are returned; those of one pack are in its line. What was found before
-///          an error stays in the contents, for the report.
+/// Errors   those of the stick as a whole are returned; those of one pack are in its line. Results from before
+///          an error stay in the contents, for the report.
 /// Threads  one caller.
 #pragma once
 

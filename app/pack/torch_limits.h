@@ -1,4 +1,4 @@
-/// What a torch's content may have, for who writes it and who reads it.
+/// Limits of a torch's content, for the writer and the reader.
 ///
 /// Threads  pure; any.
 #pragma once

@@ -20,7 +20,7 @@ inline constexpr std::string_view torches_section = "torches";
 [[nodiscard]] Result<PackTorches> read_torch_section(const PackDescription& pack);
 [[nodiscard]] std::string write_torches(const PackTorches& torches);
 
-/// What FORMAT.md allows of the contents and sizes; needs no part.
+/// Checks contents and sizes against FORMAT.md; needs no part.
 [[nodiscard]] Result<void> check_torch_fields(const PackTorches& torches);
 
 } // namespace frustumscreen::pack

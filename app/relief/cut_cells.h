@@ -26,7 +26,7 @@ struct CornerHeights {
 /// Ends within this distance belong to the surface, texels.
 inline constexpr float end_reach = 0.3F;
 
-/// What cutting needs from cell to cell, so that it allocates little.
+/// Buffers that cutting keeps from cell to cell, so that it allocates little.
 struct CutMemory {
     CellCrossings crossings;
     std::vector<glm::ivec2> front;

@@ -32,8 +32,8 @@ struct RasterFace {
     PixelRectangle lit; ///< the projector's pixels that may show the box on this face
 };
 
-/// Most faces have four edges or fewer. What tests many pixels against them repeats no loop for these, and goes on with
-/// `more_edges`, which most faces do not have. Of a triangle the last edge counts twice.
+/// Most faces have four edges or fewer. A test of many pixels against them unrolls these, and goes on with
+/// `more_edges`, which most faces do not have. In a triangle the last edge counts twice.
 [[nodiscard]] inline std::array<glm::vec3, 4> first_edges(const RasterFace& face) {
     return {face.edges[0], face.edges[1], face.edges[2], face.edges[face.edges.size() > 3 ? 3 : 2]};
 }

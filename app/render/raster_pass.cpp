@@ -37,7 +37,7 @@ bool may_share_pixels(const scene::Draw& surface, const scene::Draw& raster,
     return surface.face == raster.face && !apart;
 }
 
-/// The pixels that a draw in the prop may light. Of a relief its view knows them better than the draw.
+/// The pixels that a draw in the prop may light. For a relief, its view bounds them more closely than the draw.
 PixelRectangle pixels_of(const scene::FramePlan& plan, const scene::Draw& draw) {
     if (draw.shader.pass == scene::ShaderKey::Pass::Surface && !draw.shader.blocks) {
         return draw.bounds;

@@ -120,7 +120,7 @@ private:
     /// Draws a window of the plan into the bound target; returns the number of draw calls.
     int draw_window(const scene::FramePlan& window, const scene::FramePlan& plan, const RenderTarget& target,
                     const Raster& direct);
-    /// What of a window the GPU draws, into the bound target, whose stencil then marks the window.
+    /// The part of a window that the GPU draws, into the bound target, whose stencil then marks the window.
     int draw_surfaces(const scene::FramePlan& window, const scene::FramePlan& plan,
                       const RenderTarget& target, const Raster& direct);
     /// The plan's torches that show layers, on what has depth. Returns the number of draw calls.

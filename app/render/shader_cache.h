@@ -39,7 +39,7 @@ enum class Uniform : std::size_t {
     Mirrored,
     Light,
     DepthFromNearness,
-    // Of torches (torch_shader.h):
+    // Torches (torch_shader.h):
     Beam,
     Fall,
     Way,

@@ -247,7 +247,7 @@ void main() {
     }
 }
 )";
-// The same pixels among polygons. Of a pixel's fragments as many are drawn as it has samples with a hit.
+// The same pixels among polygons. A pixel draws as many fragments as it has samples with a hit.
 constexpr std::string_view rasterize_in_depth_fragment = R"(
 uniform sampler2D image;          // mean of the hits; alpha is their share of the samples
 uniform highp sampler2D nearness;

@@ -1,4 +1,4 @@
-/// What torches see: a small picture with depth for each, from which their light's shadows come.
+/// The views of torches: a small picture with depth for each, from which their light's shadows come.
 ///
 /// Threads  the render thread; `see` allocates nothing, but for what it rasterizes a first time.
 /// Errors   the driver is out of memory.

@@ -217,7 +217,7 @@ float pixel_m_at(vec3 on_face, vec3 p) {
 }
 )";
 
-/// Of a relief that was rasterized on the processor.
+/// Light on a relief that was rasterized on the processor.
 inline constexpr std::string_view torch_raster = R"(
 uniform sampler2D image; // alpha: the share of the samples with a hit
 uniform highp sampler2D nearness;
@@ -254,7 +254,7 @@ void main() {
 }
 )";
 
-/// Of samples that were averaged, or of pixels: each sample's place, by its depth, is lit or not.
+/// Light on samples that were averaged, or on pixels: each sample's place, by its depth, is lit or not.
 inline constexpr std::string_view torch_on_samples = R"(
 uniform highp sampler2D depths;
 uniform mat4 torch_from_projector; // its 3 x 3: from a ray to the place less the eye, times the depth left (scene::TorchFace)

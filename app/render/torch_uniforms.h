@@ -12,13 +12,13 @@
 
 namespace frustumscreen::render {
 
-/// What a torch sees, as textures; 0: none.
+/// A torch's view, as textures; 0: none.
 struct TorchPicture {
     unsigned shadow = 0, colour = 0;
     glm::vec2 inverse_z{0.0F}; ///< of a texel of `shadow`: factor, offset
 };
 
-/// What is lit: a plan that has been drawn, and what its torches see.
+/// A lit picture: a plan that has been drawn, and the views of its torches.
 struct Lit {
     const scene::FramePlan& plan;
     const GpuStore& store;
@@ -43,12 +43,12 @@ inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, see
 [[nodiscard]] double slack_of(const scene::TorchLight& light);
 void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
                const GpuStore& store);
-/// Of a face and how its places are found by nearness.
+/// Sets a face, and how its places are found by nearness.
 void set_nearness(const Shader& shader, const scene::FramePlan& plan, const scene::TorchLight& light,
                   int face, const glm::ivec4& raster);
-/// Of a face and how its places are found by depth.
+/// Sets a face, and how its places are found by depth.
 void set_depths(const Shader& shader, const scene::TorchFace& face, const glm::ivec4& raster);
-/// Of a draw on its face.
+/// Sets the face that a draw lights.
 void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw,
                   const Raster& raster);
 /// The layer that the torch shows; TextureId::None if it shows none.

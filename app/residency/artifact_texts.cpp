@@ -198,7 +198,7 @@ Result<std::vector<exhibit::TriggeredBehaviour>> lay_out_behaviours(const pack::
     return made;
 }
 
-/// Of what a torch can throw.
+/// The titles of a torch's contents.
 Result<std::vector<std::vector<glm::dvec2>>> lay_out_contents(const pack::PackDescription& pack,
                                                               std::span<const std::string> languages,
                                                               std::span<const pack::SetLanguage> set,

@@ -28,7 +28,7 @@ public:
     /// GPU memory and main memory.
     [[nodiscard]] std::uint64_t bytes() const;
 
-    /// Of quality levels, also of cells.
+    /// Changes of quality level, cells' included.
     [[nodiscard]] std::uint64_t switches() const {
         return artifact.levels.state().switches + (artifact.cells ? artifact.cells->switches() : 0);
     }

@@ -43,7 +43,7 @@ std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
     return levels;
 }
 
-/// Of the levels and reliefs that a plan reads.
+/// The memory for the levels and reliefs that a plan reads.
 std::uint64_t expected_bytes(const pack::PackOutline& outline, const scene::ScenePlan& plan,
                              std::uint64_t texture_bytes) {
     constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);

@@ -1,7 +1,7 @@
 /// The packs of the room behind the screen in memory: at the start only their manifests, then each way to draw one that the
 /// picture wants, within a budget of memory.
 ///
-/// Order    by urgency, as the picture says in each frame. What nothing wants is unloaded first, then what is less urgent than
+/// Order    by urgency, as the picture says in each frame. A model that nothing wants is unloaded first, then one less urgent than
 ///          what needs its memory; never what the picture shows.
 /// Frame    some megabytes are uploaded, one way at a time; nothing is read. Without a thread of its own (offline) everything
 ///          that is wanted and fits is read and uploaded at once.
@@ -66,7 +66,7 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     /// True while something is wanted that is not in memory and can be.
     [[nodiscard]] bool is_loading() const { return reading_.has_value() || upload_.has_value(); }
-    /// What was read, in order; for tests and reports.
+    /// The models read, in order; for tests and reports.
     [[nodiscard]] std::span<const std::string> loaded() const { return loaded_; }
     [[nodiscard]] std::span<const std::string> faults() const { return faults_; }
 

@@ -96,13 +96,13 @@ public:
     void record_time(MonotonicTime now, double ms);
     [[nodiscard]] double load() const;
 
-    /// Of the last frame drawn, the mean over the cells by their pixels.
+    /// The error of the last frame: the mean over the cells by their pixels.
     [[nodiscard]] const std::optional<scene::ErrorEstimate>& error() const { return error_; }
     [[nodiscard]] std::uint64_t switches() const { return switches_; }
     /// The plan of each eye's latest picture.
     [[nodiscard]] std::span<const scene::FramePlan> plans() const { return plans_; }
     [[nodiscard]] std::span<scene::FramePlan> plans() { return plans_; }
-    /// What the latest picture showed of the cells, prop frame; empty: it showed the whole artifact.
+    /// The cells in the latest picture, prop frame; empty: it showed the whole artifact.
     [[nodiscard]] std::span<const scene::Part> parts() const {
         return shows_ && !is_new_ ? std::span<const scene::Part>(parts_) : std::span<const scene::Part>();
     }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t corners_per_block = std::size_t{relief::block_corners} * relief::block_corners;
 
-/// Of the cell's own pack, which is read whole.
+/// A layer of the cell's own pack, which is read whole.
 Result<ReadLayer> read_cell_layer(const std::filesystem::path& file, const pack::PackCell& cell,
                                   const pack::PackOutline& outline, std::size_t number) {
     TRY(const pack::VerifiedPack pack, pack::load_cell(file, cell));

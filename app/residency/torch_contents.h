@@ -42,7 +42,7 @@ struct ThrownContents {
     std::shared_ptr<const KnownWorld> world{};  ///< null: nothing of it moves
 };
 
-/// Of each artifact, from its manifest.
+/// The contents of each artifact, from its manifest.
 [[nodiscard]] Result<std::vector<ThrownContents>> thrown_contents(std::span<const KnownArtifact> artifacts);
 
 /// A content that a light throws now.
@@ -75,7 +75,7 @@ public:
     void release(render::GpuStore& store);
 
     [[nodiscard]] const torch::Content* find(std::size_t artifact, std::size_t content) const;
-    /// Of the artifact on show.
+    /// A content of the artifact on show.
     struct Shown {
         bool ready = false; ///< false: it cannot be thrown yet
         scene::TextureId picture = scene::TextureId::None;

@@ -1,4 +1,4 @@
-/// What stands in the room behind the screen: objects, each an instance of a pack, placed in the table frame.
+/// The contents of the room behind the screen: objects, each an instance of a pack, placed in the table frame.
 ///
 /// Frames   object: its pack's box, scaled: centred on the Z axis, standing on z = 0. Table T; metres.
 /// Threads  values; any.

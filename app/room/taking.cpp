@@ -12,7 +12,7 @@ namespace frustumscreen::room {
 
 namespace {
 
-/// A follower this near to its goal has reached it. What it moves is off by the square of that, less than a nanometre.
+/// A follower this near to its goal has reached it. The moved object is off by the square of that, less than a nanometre.
 constexpr double reached = 1e-6;
 constexpr double arch = 0.25; ///< height of the way's control point, as a share of the way
 

@@ -2,7 +2,7 @@
 /// keep the frame's budget.
 ///
 /// A knapsack with one choice for each cell, solved along the convex hull of each cell's options: the steps of most
-/// error saved for each microsecond come first. What this leaves unused is less than the time of one step.
+/// error saved for each microsecond come first. The unused rest is less than the time of one step.
 /// Steady   a choice is left for a better one only if that one saves a tenth of the error, keeps a tenth of the budget
 ///          free, and no cell that it changes has changed within `cell_dwell`. A choice that breaks the budget is left at
 ///          once.

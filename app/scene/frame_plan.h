@@ -67,7 +67,7 @@ struct PlacedLevel {
     bool beyond = false;
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief && points == nullptr; }
-    /// Of its box as placed, before `prop_from_placed`.
+    /// The bounds of its box as placed, before `prop_from_placed`.
     [[nodiscard]] geometry::Box placed_box() const {
         const glm::dvec3 extent = box_size * metres_per_box;
         return {{-0.5 * extent.x, -0.5 * extent.y, 0.0}, {0.5 * extent.x, 0.5 * extent.y, extent.z}};
@@ -260,15 +260,15 @@ struct FramePlan {
     std::vector<TorchLight> torches;    ///< that may light some of the draws in the prop
     std::vector<TorchDraw> torch_draws; ///< torch by torch
     std::vector<TorchFace> torch_faces; ///< torch by torch
-    /// What each of `torches` sees, for its shadows; of the frame are as many as there are torches.
+    /// The view of each of `torches`, for its shadows; the first ones, as many as there are torches, are the frame's.
     std::vector<FramePlan> torch_views;
     std::vector<Part> casters;   ///< the parts of a torch's own picture
     geometry::PropShape surface; ///< of a torch's own picture: the square that its light meets first
-    /// What each window shows, drawn after all else; of the frame are the first `window_count`. One that shows nothing has
+    /// The view in each window, drawn after all else; the first `window_count` are the frame's. One that shows nothing has
     /// no faces.
     std::vector<FramePlan> windows;
     std::size_t window_count = 0;
-    /// Of a window's plan: a convex polygon in the picture that the prop covers, with a margin; empty if it is beside the window.
+    /// In a window's plan: a convex polygon in the picture that the prop covers, with a margin; empty if it is beside the window.
     std::vector<glm::vec4> cover_clip;
 };
 

@@ -29,7 +29,7 @@ struct PlacedTorch {
     bool casts_shadows = true;           ///< false only to measure their cost
 };
 
-/// What drawing its content takes (torch::ContentPart).
+/// The parts that drawing its content takes (torch::ContentPart).
 [[nodiscard]] std::uint8_t parts_of(const PlacedTorch& torch);
 
 /// The content at a time, placed.

@@ -49,7 +49,7 @@ public:
 
     /// The option of an object of the latest `seen`, among its own; none if all of its options cost infinitely.
     [[nodiscard]] std::uint32_t of(std::uint32_t object) const { return chosen_[object]; }
-    /// Of all that was chosen.
+    /// The cost of all chosen levels.
     [[nodiscard]] double cost_us() const { return cost_us_; }
     /// True if the budget made some objects coarser than is good enough.
     [[nodiscard]] bool is_short() const { return short_; }

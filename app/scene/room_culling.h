@@ -22,7 +22,7 @@
 
 namespace frustumscreen::scene {
 
-/// Of a parallelepiped: bit 0 of the index tells the two ends of its first edge apart, bit 1 of its second, bit 2 of its third.
+/// The corners of a parallelepiped: bit 0 of the index tells the two ends of its first edge apart, bit 1 of its second, bit 2 of its third.
 using BoxCorners = std::array<glm::dvec3, 8>;
 
 class RoomCulling {
@@ -48,7 +48,7 @@ public:
 private:
     /// Pixels; `z` is the depth.
     [[nodiscard]] glm::dvec3 from_eye(const glm::dvec3& point_m) const;
-    /// Of tiles, the last ones excluded.
+    /// A range of tiles, the last ones excluded.
     struct TileRange {
         int left = 0, right = 0, top = 0, bottom = 0;
     };
@@ -71,7 +71,7 @@ private:
     std::vector<double> nearness_;      ///< of each tile, row by row; 0: nothing covers it
 };
 
-/// Of a box in its own frame, moved by an affine transform.
+/// The corners of a box in its own frame, moved by an affine transform.
 [[nodiscard]] BoxCorners corners_of(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& to_from);
 
 } // namespace frustumscreen::scene

@@ -78,7 +78,7 @@ struct SceneRequest {
     std::vector<std::size_t> captions; ///< of Pack::captions: those that a visitor can reach
     bool table_pictures = false;       ///< other artifacts lie on the table
     Visibility visibility;
-    /// Of a cell, which its artifact places (cell_plan.h); nullopt: the largest size inside the prop.
+    /// The scale of a cell, which its artifact places (cell_plan.h); nullopt: the largest size inside the prop.
     std::optional<double> metres_per_box = std::nullopt;
 };
 
@@ -86,7 +86,7 @@ struct ScenePlan {
     std::vector<QualityLevel> quality_levels; ///< the quality levels of the artifact, best first
     std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `quality levels` first
     std::vector<pack::ReliefOutline> reliefs; ///< of the pack, to read: those of `quality levels`
-    /// Of the pack, for exposure_of: the first of `levels`. If only reliefs are drawn, it is the pack's
+    /// The level of the pack for exposure_of: the first of `levels`. If only reliefs are drawn, it is the pack's
     /// default level, which is read for this purpose but not uploaded, so that meshes and reliefs of one
     /// artifact are equally bright.
     std::uint32_t exposure_level = 0;

@@ -139,7 +139,7 @@ ShaderKey torch_of(ShaderKey key, std::uint8_t content) {
 
 namespace {
 
-/// What torches draw: their own pictures, and their light on each kind of draw.
+/// The shaders of torches: their own pictures, and their light on each kind of draw.
 void add_torches(const RenderNeeds& needs, std::set<ShaderKey>& shaders) {
     std::set<ShaderKey> lit{{ShaderKey::Pass::TorchOnSamples}, {ShaderKey::Pass::TorchOnPixels}};
     for (const ShaderKey& key : shaders) {

@@ -70,11 +70,11 @@ struct RenderNeeds {
 /// The value of RenderNeeds::bent_by: the projector if its lens distorts, otherwise nullopt.
 [[nodiscard]] std::optional<geometry::Pinhole> if_it_bends(const geometry::Pinhole& projector);
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
-/// What a world of cells needs of a renderer beyond its artifact: a light for each, and depth between relief and polygons.
+/// The shaders that a world of cells needs beyond its artifact's: a light for each, and depth between relief and polygons.
 [[nodiscard]] RenderNeeds with_cells(RenderNeeds needs);
-/// What a torch with such a content needs beyond what it lights (torch::parts_of).
+/// The shaders of a torch with such a content, beyond those of the surfaces that it lights (torch::parts_of).
 [[nodiscard]] RenderNeeds with_torch(RenderNeeds needs, std::uint8_t content);
-/// What torches with any content need: the usual ones have shaders of their own.
+/// The shaders of torches with any content: the usual ones have shaders of their own.
 [[nodiscard]] RenderNeeds with_torches(RenderNeeds needs);
 /// Shows again, in a torch's light, what `key` has shown.
 [[nodiscard]] ShaderKey torch_of(ShaderKey key, std::uint8_t content);

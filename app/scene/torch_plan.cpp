@@ -123,7 +123,7 @@ geometry::Pinhole pinhole_of(const torch::Beam& beam) {
             .cy = half};
 }
 
-/// Of a fade the level that shows more casts the shadow.
+/// In a fade, the level that shows more casts the shadow.
 bool casts(const Part& part) {
     return !part.dither || (part.dither->complement ? 1.0F - part.dither->share : part.dither->share) >= 0.5F;
 }

@@ -1,4 +1,4 @@
-/// What torches light in a picture: which of its draws, in which pixels, and what each torch sees itself.
+/// The part of a picture that torches light: which of its draws, in which pixels, and the view of each torch.
 ///
 /// A torch's own picture is one of a flat surface with one face close before it, drawn by the pinhole of its beam; so
 /// `plan_frame` plans it too. Its depth tells the places that the torch sees from those in shadow.

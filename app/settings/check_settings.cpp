@@ -171,7 +171,7 @@ void check_camera(const Settings& settings, Fitness& fitness) {
     check_visitor(settings, fitness);
 }
 
-/// What reports the torch must be there.
+/// The device that reports the torch must be there.
 void check_torch_source(const Settings& settings, Fitness& fitness) {
     const TorchSettings& torch = settings.torch;
     const TrackerKind tracker = settings.tracker.kind;

@@ -74,7 +74,7 @@ struct PropSettings {
     double height_m = geometry::shipped_frustum.height_m;
     PropZone zone = PropZone::Table; ///< how it moves
 
-    // Of a solid.
+    // A solid:
     std::filesystem::path file{}; ///< an OBJ; resolved as the packs
     std::string shape_text{};     ///< the OBJ itself, where there is no `file`
     solid::LengthUnit unit = solid::LengthUnit::Millimetre;
@@ -222,7 +222,7 @@ struct CameraSettings {
     geometry::RigidTransform table_from_camera; ///< identity: not measured
 };
 
-/// What reports the torch's pose. Tracker: station 3. Camera: a tag on a lamp. None: there is no torch.
+/// The source of the torch's pose. Tracker: station 3. Camera: a tag on a lamp. None: there is no torch.
 enum class TorchSource { None, Tracker, Camera, Both };
 [[nodiscard]] std::string_view name_of(TorchSource source);
 /// Hand-held torches that throw the contents of the shown artifact's pack.
@@ -258,7 +258,7 @@ struct WindowSettings {
 /// A flat screen behind the table, the second output, and the room that it shows.
 struct ScreenSettings {
     std::filesystem::path room; ///< empty: there is no screen
-    /// Of its lit area: top left, top right, bottom right, bottom left, as people before it see it.
+    /// The corners of its lit area: top left, top right, bottom right, bottom left, as people before it see it.
     std::array<glm::dvec3, 4> corners_m{
         {{-0.6, 0.7, 0.85}, {0.6, 0.7, 0.85}, {0.6, 0.7, 0.175}, {-0.6, 0.7, 0.175}}};
     int width = 1920, height = 1080; ///< pixels

@@ -326,7 +326,7 @@ void OfflineRenderer::draw_once(std::span<const scene::PlanView> views) {
     (void)display_->present(MonotonicTime{}); // cannot fail without a screen
 }
 
-/// Of several parts the mean, weighted by the pixels of each.
+/// For several parts, the mean, weighted by the pixels of each.
 std::optional<scene::ErrorEstimate> OfflineRenderer::error_in(const scene::PlanView& view,
                                                               const scene::FramePlan& plan) const {
     if (parts_.size() == 1) {

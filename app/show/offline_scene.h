@@ -69,7 +69,7 @@ struct OfflineWorld {
     std::optional<double> held_s{}; ///< of a state: the time in the behaviour at which every picture is
     std::optional<world::SiteView> site = std::nullopt;
 };
-/// What torches throw.
+/// The contents of torches.
 struct OfflineTorch {
     torch::Content content;
     std::vector<image::Image8> picture{}; ///< its mips; of a film, those of the first frame

@@ -1,4 +1,4 @@
-/// What a torch throws in an offline picture, read from a pack's file: only the chosen content's parts.
+/// A torch's content in an offline picture, read from a pack's file: only the chosen content's parts.
 ///
 /// Errors   a content that the pack does not have; as the readers of pack_torches.h.
 /// Threads  any.

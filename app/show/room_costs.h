@@ -1,4 +1,4 @@
-/// What a picture of the room costs: of polygons, which the GPU draws, and of reliefs, which this program rasterizes.
+/// The cost of a picture of the room: of polygons, which the GPU draws, and of reliefs, which this program rasterizes.
 ///
 /// Units    milliseconds of wall time, of a whole picture at two samples a pixel.
 /// Threads  the render thread, with the display's context current.
@@ -15,7 +15,7 @@
 
 namespace frustumscreen::show {
 
-/// Of a software driver on two cores. Pictures that are not live use these, so that they do not depend on the machine.
+/// Costs on a software driver on two cores. Pictures that are not live use these, so that they do not depend on the machine.
 inline constexpr scene::FrameCost usual_room_cost{
     .mesh = {.fixed_ms = 8.0, .ms_per_triangle = 5e-5, .ms_per_sample = 2e-5},
     .raster = {.fixed_ms = 2.0, .ms_per_triangle = 4e-5, .ms_per_sample = 2e-5},

@@ -196,7 +196,7 @@ void RoomShow::look(double seconds, std::span<const glm::dvec3> eyes_m) {
         seconds, eyes_m, taken_,
         [this](std::uint32_t object) -> const std::optional<scene::BoxCorners>* {
             const std::size_t pack = room_.objects[object].pack;
-            // What is missing, or comes just now, hides nothing.
+            // An object that is missing, or comes just now, hides nothing.
             return models_->find(pack) != nullptr && shown_[object].way != none &&
                            models_->find(pack, shown_[object].way) != nullptr
                        ? &models_->solid(pack)

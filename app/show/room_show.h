@@ -52,11 +52,11 @@ struct RoomShowOptions {
 
 class RoomShow {
 public:
-    /// Of `exhibit.memory_mb`. The artifacts in the prop have the rest.
+    /// A share of `exhibit.memory_mb`. The artifacts in the prop have the rest.
     static constexpr double room_share = 0.5;
     static constexpr std::size_t max_fades = 16; ///< at a time
 
-    /// What the latest picture shows.
+    /// Counts of the latest picture.
     struct Counts {
         std::size_t in_view = 0; ///< objects that the eye's pyramid meets
         std::size_t seen = 0;    ///< of these, that are not certainly hidden
@@ -81,13 +81,13 @@ public:
 
     /// Factor of all light, 0..1, from the next `draw` on.
     void set_light(double light) { light_ = light; }
-    /// Of the whole picture, both eyes' included.
+    /// Pixels of the whole picture, both eyes' included.
     [[nodiscard]] PixelSize size() const { return layout_.display; }
     [[nodiscard]] const scene::FlatScreen& screen() const { return screen_; }
     [[nodiscard]] const render::Renderer& renderer() const { return renderer_; }
-    /// Of each eye's latest picture.
+    /// The plan of each eye's latest picture.
     [[nodiscard]] std::span<const scene::FramePlan> plans() const { return plans_; }
-    /// Of the latest picture: the mean over the objects by their pixels.
+    /// The error of the latest picture: the mean over the objects by their pixels.
     [[nodiscard]] double error_mm() const { return error_mm_; }
     [[nodiscard]] const Counts& counts() const { return counts_; }
     [[nodiscard]] const residency::RoomModels& models() const { return *models_; }

@@ -19,7 +19,7 @@ constexpr Nanoseconds between_probes = std::chrono::seconds(1);
 constexpr Nanoseconds watch_interval = std::chrono::seconds(3);
 constexpr std::size_t window_frames = 1024; ///< for the status's frame times
 
-/// What an output says of itself is worded for a projector, which is the whole exhibit's light.
+/// The sentences of an output speak of a projector, which is the whole exhibit's light.
 constexpr std::array<std::array<std::string_view, 2>, 7> screens_words{{
     {"display: ", ""},
     {"in the dark", "without it"},

@@ -75,7 +75,7 @@ bool has_layer(const residency::KnownArtifact& known) {
                        [](const pack::PackState& state) { return state.layer.has_value(); });
 }
 
-/// Of `exhibit.memory_mb`, what torches throw takes at most one part in so many.
+/// Torches' contents take at most one part in so many of `exhibit.memory_mb`.
 constexpr std::uint64_t share_of_torches = 4;
 
 } // namespace

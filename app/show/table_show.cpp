@@ -90,7 +90,7 @@ struct TableShow::Loader {
         return typography::make_table_title(*typesetter, title.text, texels_per_m);
     }
 
-    /// Loads a pack's card. Whatever was read before an error stays in the card.
+    /// Loads a pack's card. Parts read before an error stay in the card.
     [[nodiscard]] Result<void> load(const std::filesystem::path& file, Card& card) {
         TRY(pack::PackCard read, pack::load_pack_card(file));
         const image::Image8& picture = read.table_picture;

@@ -31,7 +31,7 @@ bool is_tinted(torch::Source source) {
            source == torch::Source::Ruler;
 }
 
-/// Dimmed by the house's light, the surface gets its own light back where the torch is full. What covers the surface goes with
+/// Dimmed by the house's light, the surface gets its own light back where the torch is full. Anything that covers the surface goes with
 /// the artifact's light, which the light on its own colours does by itself.
 double strength(torch::Blend blend, const exhibit::Presentation& presentation) {
     const double house_light = presentation.torches.house_light;

@@ -21,7 +21,7 @@ namespace frustumscreen::show {
 
 class TorchShow {
 public:
-    /// Of the projector's light; a spot is a hint and no picture.
+    /// A share of the projector's light; a spot is a hint and no picture.
     static constexpr double spot_brightness = 0.03;
 
     explicit TorchShow(const settings::TorchSettings& torch) : beam_(torch.beam) {}
@@ -32,7 +32,7 @@ public:
 
     /// Adds the spots of torches that are there.
     void place_spots(const exhibit::Presentation& presentation, residency::OnTable& on_table) const;
-    /// What the lights throw, as it is in `contents`, which has been stepped; valid until the next call.
+    /// The lights' contents, as they are in `contents`, which has been stepped; valid until the next call.
     [[nodiscard]] std::span<const scene::PlacedTorch> place(const exhibit::Presentation& presentation,
                                                             const residency::TorchContents& contents);
     /// Plain light at a place above the table, to draw one frame with.
@@ -45,7 +45,7 @@ private:
     std::array<scene::PlacedTorch, torch::max_torches> placed_{};
 };
 
-/// What the lights throw, for TorchContents::step.
+/// The lights' contents, for TorchContents::step.
 struct WantedContents {
     std::array<residency::WantedContent, torch::max_torches> contents{};
     std::size_t count = 0;

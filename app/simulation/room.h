@@ -11,7 +11,7 @@
 
 namespace frustumscreen::simulation {
 
-/// What a screen stands on, from the floor to its middle, behind it; a screen that leans is not held at each place.
+/// The stand of a screen, from the floor to its middle, behind it; a screen that leans is not held at each place.
 [[nodiscard]] std::vector<RoomObject> stand_of(const VisitorScreen& screen);
 
 /// `lens_m`: the projector's position.

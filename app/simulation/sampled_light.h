@@ -19,7 +19,7 @@ namespace frustumscreen::simulation {
     return {linear[code.r], linear[code.g], linear[code.b]};
 }
 
-/// Of four pixels; with `nearest` of the one that holds the place. Beyond the edge as at the edge.
+/// The mean of four pixels; with `nearest`, the pixel that holds the place. Beyond the edge as at the edge.
 [[nodiscard]] inline glm::dvec3 linear_at(const image::Image8& picture, const glm::dvec2& pixel,
                                           bool nearest) {
     if (nearest) {

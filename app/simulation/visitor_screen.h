@@ -18,7 +18,7 @@ namespace frustumscreen::simulation {
 inline constexpr double screen_case_albedo = 0.05; ///< its frame and its back
 
 struct VisitorScreen {
-    /// Of its lit area, a rectangle: top left, top right, bottom right, bottom left, as people before it see it.
+    /// The corners of its lit area, a rectangle: top left, top right, bottom right, bottom left, as people before it see it.
     std::array<glm::dvec3, 4> corners_m;
     image::Image8 picture; ///< for the scene's eye
     double rim_m = 0.012;

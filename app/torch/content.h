@@ -64,14 +64,14 @@ struct Content {
     std::string name; ///< unique in its pack
     Blend blend = Blend::Light;
     std::vector<Stage> stages; ///< 1 to max_stages
-    /// Of the beam; nullopt: the torch's own. The height follows a picture's shape.
+    /// The shape of the beam; nullopt: the torch's own. The height follows a picture's shape.
     std::optional<Shape> shape = std::nullopt;
     double height_per_width = 1.0;
 
     [[nodiscard]] bool operator==(const Content&) const = default;
 };
 
-/// What drawing a content takes, bits: a shader leaves the rest out.
+/// The parts that drawing a content takes, bits: a shader leaves the rest out.
 enum ContentPart : std::uint8_t {
     PicturePart = 1,
     LayerPart = 2,

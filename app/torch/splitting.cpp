@@ -10,7 +10,7 @@ namespace {
 /// Halvings of one triangle, one after the other: an edge of 1 km becomes 15 um.
 constexpr int max_depth = 52;
 
-/// Of the triangle's points, from the origin (Ericson, Real-Time Collision Detection, 5.1.5).
+/// The triangle's least distance from the origin (Ericson, Real-Time Collision Detection, 5.1.5).
 double nearest_way(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto to_segment = [](const glm::dvec3& from, const glm::dvec3& to) {
         const glm::dvec3 along = to - from;

@@ -32,7 +32,7 @@ enum class Attenuation : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 4> attenuation_names{"inverse_square", "linear", "smooth_step",
                                                                    "none"};
-/// Of the beam's cross-section. Round: the ellipse in the rectangle.
+/// The shape of the beam's cross-section. Round: the ellipse in the rectangle.
 enum class Shape : std::uint8_t { Round, Rectangle };
 inline constexpr std::array<std::string_view, 2> shape_names{"round", "rectangle"};
 

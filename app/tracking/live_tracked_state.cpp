@@ -28,7 +28,7 @@ constexpr double tags_off_m = 0.0015;
 constexpr Nanoseconds tracker_lost_after = std::chrono::milliseconds(150);
 constexpr Nanoseconds tags_lost_after = std::chrono::milliseconds(300);
 
-/// Of torches: as tracker_lost_after; a lamp's tag is covered now and then.
+/// As tracker_lost_after, for torches; a lamp's tag is covered now and then.
 constexpr Nanoseconds torch_lost_after = std::chrono::milliseconds(250);
 constexpr Nanoseconds lamp_lost_after = std::chrono::milliseconds(600);
 

@@ -6,7 +6,7 @@ namespace frustumscreen::tracking {
 
 namespace {
 
-/// Of the measured velocity: a tremor's leaves a fifth.
+/// Time constant of the measured velocity: a fifth of a tremor's passes.
 constexpr double velocity_s = 0.08;
 
 } // namespace

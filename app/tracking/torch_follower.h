@@ -13,7 +13,7 @@
 
 namespace frustumscreen::tracking {
 
-/// What reports the torches: the tracker's station 3, and a camera that sees a tag on a lamp.
+/// The sources of torches: the tracker's station 3, and a camera that sees a tag on a lamp.
 struct TorchSources {
     bool tracker = false, camera = false;
 };

@@ -2,7 +2,7 @@
 /// in each eye's picture alone, so that a technician who closes one eye sees whether the glasses are right.
 ///
 /// Place    two squares in the picture's upper right, L beside R: between the staff's words and the camera's picture,
-///          where the pattern has least light. What lies there all the same, such as the prop's edges, is drawn over
+///          where the pattern has least light. Anything else that lies there, such as the prop's edges, is drawn over
 ///          the letter.
 /// Units    pixels.
 /// Threads  as Typesetter.

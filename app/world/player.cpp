@@ -10,7 +10,7 @@ namespace frustumscreen::world {
 
 namespace {
 
-/// What is not seen any more, of the cell's size: a fiftieth of a pixel on the usual prop.
+/// A motion too small to see, in cell sizes: a fiftieth of a pixel on the usual prop.
 constexpr double still_share = 1e-4;
 /// After a longer gap than so many rounds, the older ones' pushes are left out.
 constexpr std::int64_t max_rounds_in_step = 1000;

@@ -1,4 +1,4 @@
-/// What a device says of itself: whether it can be used, in one sentence for the person beside it, and the sentence's id.
+/// A device's report of itself: whether it can be used, in one sentence for the person beside it, and the sentence's id.
 ///
 /// Threads  values of fixed size.
 #pragma once

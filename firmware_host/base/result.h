@@ -21,7 +21,7 @@
 
 namespace frustumscreen {
 
-/// Who must act on an error.
+/// The person who must act on an error.
 enum class ErrorKind {
     BadInput,         ///< bad bytes from outside: refuse them, keep running
     DeviceLost,       ///< a device went away: reconnect

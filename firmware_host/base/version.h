@@ -11,7 +11,7 @@ namespace frustumscreen {
 /// Three numbers: `0.9.0`.
 [[nodiscard]] std::string_view project_version();
 
-/// What `--version` prints: `frustumscreen-bake 0.9.0`.
+/// The output of `--version`: `frustumscreen-bake 0.9.0`.
 [[nodiscard]] std::string name_and_version(std::string_view program);
 
 } // namespace frustumscreen

@@ -20,7 +20,7 @@
 
 namespace frustumscreen::display {
 
-/// What two outputs of one card share.
+/// The state that two outputs of one card share.
 struct CardTurns {
     std::mutex asking;                   ///< held while a connector is probed or a mode is set
     std::atomic<bool> has_lease = false; ///< a probe for one output holds the other's up, also in the kernel

@@ -1,7 +1,7 @@
 /// An open graphics card: its file, its name, and its connectors.
 ///
 /// Lease    two outputs of one card are two cards to this program: the second has a lease of its connector, with a CRTC
-///          and its planes (kms_lease.h), and so its own file, its own flips and its own modes. What is leased is left
+///          and its planes (kms_lease.h), and so its own file, its own flips and its own modes. Leased objects are left
 ///          alone by the first. Memory and framebuffers are on the file of the whole card for both: a driver may keep
 ///          one table of memory for all files of a card.
 /// Threads  `look` on any one thread while the render thread sets modes; the kernel allows both.

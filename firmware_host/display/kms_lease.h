@@ -2,7 +2,7 @@
 /// file of the same program, whose modes and flips are its own.
 ///
 /// Choice   the CRTC that feeds the connector now, else the first that can, of those that leave one for the connector that
-///          stays. What an earlier program has lit is turned off first, except the connector that stays.
+///          stays. Outputs that an earlier program has lit are turned off first, except the connector that stays.
 /// Threads  the render thread, while no mode is being set.
 /// Errors   the card lacks the connector, cannot light both at once, or refuses the lease.
 /// Source   Linux 6.1, drivers/gpu/drm/drm_lease.c: the lessor must be the master; connector, CRTC and, with universal planes,

@@ -34,7 +34,7 @@ enum class Purpose : std::uint64_t {
 constexpr double prop_slot_s = 4.0;
 constexpr double head_slot_s = 3.1;
 constexpr double torch_slot_s = 2.6;
-/// Of so many movements with the torch, the last two are to where it lies, and there.
+/// Movements with the torch in a round; the last two are to where it lies, and there.
 constexpr std::int64_t torch_round = 9;
 
 /// SplitMix64 (Steele, Lea and Flood 2014) of seed, purpose and number; from 0 to 1.

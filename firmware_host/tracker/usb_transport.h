@@ -1,6 +1,6 @@
 /// The transport to a USB tracker, and the search for one.
 ///
-/// Bytes    of a bulk endpoint: a stream. Of a HID device: one whole report per read, its id first. The
+/// Bytes    from a bulk endpoint: a stream; from a HID device: one whole report per read, its id first. The
 ///          feature report, which the transport requests when it opens a HID tracker, comes first.
 /// Threads  the device's own thread; a call blocks no longer than its timeout.
 /// Errors   DeviceLost: unplugged or unusable; close it and search again.

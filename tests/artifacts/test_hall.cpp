@@ -1,4 +1,4 @@
-// What stands in the example hall: its meshes, its room file, and its page.
+// The contents of the example hall: its meshes, its room file, and its page.
 #include "app/room/room_file.h"
 #include "app/settings/settings.h"
 #include "assets_baked/artifacts/builtin.h"

@@ -187,7 +187,7 @@ TEST(Promises, OfTouchesOnTheShippedTableHold) {
     const Kept kept = touched(60, shipped_crosses(shipped_touches));
     kept.print("touches");
     expect_kept(kept);
-    // One right touch in a hundred is doubted. Of 60 sets of 15 touches, 9 are expected to be repeated; more
+    // One right touch in a hundred is doubted. Among 60 sets of 15 touches, 9 are expected to be repeated; more
     // than 17 have a probability of 0.001.
     EXPECT_GE(kept.good + kept.usable, 60 - 17);
 }

@@ -39,7 +39,7 @@ void expect_refused(const TouchCalibration& found, const std::string& word) {
     EXPECT_NE(found.reason.sentence.find(word), std::string::npos) << found.reason.sentence;
 }
 
-/// One right touch in a hundred must be repeated. Of five grids, fewer than two kept ones have a probability
+/// One right touch in a hundred must be repeated. Among five grids, fewer than two kept ones have a probability
 /// of 0.001.
 TEST(Refusals, AGridIsNone) {
     int kept = 0;

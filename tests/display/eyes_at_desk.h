@@ -1,4 +1,4 @@
-// An exhibit that shows each eye its own picture in turn, on the fake kernel at 120 refreshes a second. What reaches the screen is
+// An exhibit that shows each eye its own picture in turn, on the fake kernel at 120 refreshes a second. The pictures are
 // judged by what the fake card scans out, not by what the display's code believes.
 #pragma once
 

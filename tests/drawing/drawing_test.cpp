@@ -276,7 +276,7 @@ TEST_F(Drawing, TheShippedTableHasItsDimensions) {
     }
 }
 
-/// Of a convex polygon, counter-clockwise: how far a point lies within the edge that it is nearest to.
+/// For a convex polygon, counter-clockwise: how far a point lies within the edge that it is nearest to.
 double depth_in(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < polygon.size(); ++k) {

@@ -171,7 +171,7 @@ struct Visit {
     double x = 0.0;
     Presentation shown = {};
 
-    /// What happened in this time.
+    /// The events in this time.
     std::string run(Nanoseconds length, std::vector<settings::Command> commands = {}) {
         std::string events;
         for (const MonotonicTime end = now + length; now < end;) {

@@ -1,4 +1,4 @@
-/// What the random walk walks through: an exhibit of four artifacts with all that artifacts can have, and its narrator.
+/// The exhibit of the random walk: an exhibit of four artifacts with all that artifacts can have, and its narrator.
 #pragma once
 
 #include "app/bench/truth/seeded_situations.h"

@@ -41,7 +41,7 @@ void check_replay(const std::vector<tracker::PoseSample>& poses, double speed) {
     }
 }
 
-/// What `frustumscreen render` draws.
+/// The frames that `frustumscreen render` draws.
 void check_frames(const std::vector<tracker::PoseSample>& poses) {
     for (const tracking::TrackedState& frame : tracking::pose_frames(poses, {0.0, -0.5, 0.5})) {
         for (const tracking::TrackedTorch& torch : frame.torches) {

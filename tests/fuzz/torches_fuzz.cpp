@@ -1,5 +1,5 @@
 // The data of the section torches, and on a second line how many parts it has: refused in one line, or every stage shows
-// something that is there, within its limits, and written again it reads equal. What follows the second line is the
+// something that is there, within its limits, and written again it reads equal. The rest after that line is the
 // colours of a layer.
 #include "app/pack/colours_part.h"
 #include "app/pack/torch_sections.h"

@@ -103,7 +103,7 @@ TEST_P(TwoEyesOf, AreMendedByOneMove) {
     EXPECT_LT(none, 100);
 }
 
-/// Who walks round the table turns with the way: both eyes go about the table's vertical by the same angle.
+/// A visitor who walks round the table turns with the way: both eyes go about the table's vertical by the same angle.
 TEST(TwoEyes, GoRoundTheTableTogether) {
     const GuidanceSetup setup = frustum_setup();
     GuidedState front;

@@ -31,7 +31,7 @@ inline constexpr double eye_distance_m = 0.5;
 /// A seeded eye in the patch, at the frozen distance.
 [[nodiscard]] glm::dvec3 seeded_eye(const Hemisphere& hemisphere, std::size_t patch, std::mt19937& random);
 
-/// What an eye sees through the window, in pixels from the upper left; NaN and alpha 0 where there is nothing.
+/// An eye's view through the window, in pixels from the upper left; NaN and alpha 0 where there is nothing.
 struct SeenWindow {
     int px = 0;
     std::vector<glm::vec3> points;

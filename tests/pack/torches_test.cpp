@@ -88,7 +88,7 @@ Pack pack_with_torches() {
     return pack;
 }
 
-/// What is told of contents and parts that were altered.
+/// Messages on contents and parts that were altered.
 std::string refusal(const std::function<void(PackTorches&, TorchParts&)>& alter) {
     Pack pack = samples::pack_with_reliefs();
     PackTorches torches = contents();

@@ -107,7 +107,7 @@ inline pack::PackWorld world() {
     return {cells(), behaviours()};
 }
 
-/// Of full_pack(), which has two hotspots and sections of its own.
+/// A world made from full_pack(), which has two hotspots and sections of its own.
 inline pack::Pack pack_with_world() {
     pack::Pack pack = full_pack();
     const Result<void> put = pack::put_world(pack, samples::world(), cell_packs());

@@ -86,7 +86,7 @@ TEST_F(WorldFile, a_cell_is_read_alone) {
     ASSERT_TRUE(coarse) << coarse.error().message;
     EXPECT_FALSE((*coarse)->levels[0].indices.empty());
     EXPECT_TRUE((*coarse)->levels[1].indices.empty());
-    // Of an altered cell the others know nothing.
+    // An altered cell does not affect the others.
     samples::Entries entries = samples::take_apart(bytes);
     entries.part("cells/0.fspack")[100] ^= std::byte{1};
     put(samples::put_together(entries));

@@ -38,7 +38,7 @@ protected:
                                  "\"en\"\ntitle = \"Jug\"\n" +
                                      lines);
     }
-    /// What the check says of a [[torch]] that cannot be baked.
+    /// The check's sentence on a [[torch]] that cannot be baked.
     [[nodiscard]] std::string refusal(const std::string& lines) const {
         put_torch("[[torch]]\nname = \"a\"\n" + lines + "\n");
         EXPECT_EQ(run("frustumscreen-bake --check jug"), 1) << text("out.txt");

@@ -101,7 +101,7 @@ public:
             }
         }
     }
-    /// What the eye sees first in this direction, before and behind the screen (Moeller, Trumbore 1997).
+    /// The surface that the eye sees first in this direction, before and behind the screen (Moeller, Trumbore 1997).
     [[nodiscard]] std::optional<RoomHit> hit(const glm::dvec3& eye, const glm::dvec3& towards) const {
         const glm::dvec3 along = glm::normalize(towards - eye);
         double first = std::numeric_limits<double>::infinity();

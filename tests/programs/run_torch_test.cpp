@@ -19,7 +19,7 @@ constexpr const char* torch_table =
     "[torch]\nsource = \"tracker\"\nopening_deg = 14\nattenuation = \"none\"\n";
 constexpr const char* dark_table = "[eye]\ntracked = false\n[render]\nhighlight_code = 120\n";
 
-/// What of the artifact differs from another picture: its lit pixels, their mean column, and those that are darker.
+/// The difference of the artifact from another picture: its lit pixels, their mean column, and those that are darker.
 struct Lit {
     int artifact = 0;
     int pixels = 0;

@@ -1,4 +1,4 @@
-// What `frustumscreen render --output screen` says when it cannot draw: one sentence, before a picture is written.
+// The error of `frustumscreen render --output screen` when it cannot draw: one sentence, before a picture is written.
 
 #include "tests/programs/program_folder.h"
 

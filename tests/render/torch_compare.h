@@ -21,7 +21,7 @@ struct Counts {
     double worst = 0.0; ///< codes, of lit pixels that no outline or edge excuses
 };
 
-/// What a drawing errs by.
+/// The error of a drawing.
 struct Tolerance {
     double eye_px = 1.0 / 32.0; ///< of the projector: outlines of what is seen
     double torch_px = 1.42; ///< of the torch's picture: the four depths around a place lie within a diagonal

@@ -39,7 +39,7 @@ image::Image8 picture_of(Interlocked& world, const TestTable& table,
     return world.picture(view);
 }
 
-/// Of several samples a pixel, and of triangles whose corners alone a lens bends, each shows places beside the pixel's middle.
+/// Each of several samples a pixel, and each triangle whose corners alone a lens bends, shows places beside the pixel's middle.
 Tolerance tolerance_of(const Lit& lit) {
     const bool all_meshes = std::ranges::count(lit.chosen, Way::Mesh) == std::ssize(lit.chosen);
     return all_meshes && lit.samples == 1 && lit.lens.is_plain() ? of_mesh : of_relief;
@@ -170,7 +170,7 @@ torch::Beam wide_beam() {
     return beam;
 }
 
-/// Whoever holds the torch at his eye sees no shadow.
+/// An eye at the torch sees no shadow.
 TEST(Torch, AtTheEyeLightsAllThatTheEyeSees) {
     for (const Way way : ways) {
         Still still(way);

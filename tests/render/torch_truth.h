@@ -70,7 +70,7 @@ public:
         return first.part < 0 || way(first.point) > way(point) * (1.0 - 1e-9) - 1e-9;
     }
 
-    /// What the rays through the torch's own picture within `radius` of its pixels say of a place: all meet something at least
+    /// The verdict of the rays through the torch's own picture within `radius` of its pixels on a place: all meet something at least
     /// `margin_m` before it; none meets anything before the surface there; or neither.
     enum class Around { Shadow, Lit, Edge };
     [[nodiscard]] Around around(const SeenPart& place, double radius, double margin_m) const {

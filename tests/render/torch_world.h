@@ -49,7 +49,7 @@ inline std::vector<WorldObject> box_in_crate() {
     }
     return {{crate, glm::dmat4(1.0)}, {box({0.4, 0.3, 0.5}), put({0.1, 0.0, 0.37}, 30.0)}};
 }
-/// Of small triangles.
+/// A world of small triangles.
 inline std::vector<WorldObject> ball_in_ring() {
     return {{ball(), glm::scale(put({0.0, 0.0, 0.5}), glm::dvec3(0.3))},
             {torus(0.6, 0.12), put({0.05, 0.0, 0.5}, 50.0, {1.0, 0.3, 0.0})}};

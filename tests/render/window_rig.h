@@ -43,7 +43,7 @@ struct Pinned {
     return windows;
 }
 
-/// What a pixel of the projector lights.
+/// The place that a pixel of the projector lights.
 struct LitPlace {
     bool prop = false;
     int window = -1;       ///< -1: none
@@ -108,7 +108,7 @@ private:
     std::span<const Pinned> pinned_;
 };
 
-/// What a drawing errs by, pixels.
+/// The error of a drawing, pixels.
 struct WindowTolerance {
     double outline_px = 1.0 / 32.0; ///< of what is seen
     double edge_px = 1.0 / 32.0;    ///< of the window

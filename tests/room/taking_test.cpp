@@ -55,7 +55,7 @@ struct Choice {
     std::optional<std::size_t> artifact;
 };
 
-/// What the exhibit decides: the artifact in the prop changes through darkness, 0.25 s each way.
+/// The exhibit's decision: the artifact in the prop changes through darkness, 0.25 s each way.
 struct Visit {
     std::vector<Choice> choices; ///< in order; those for an artifact are 0.5 s apart
     [[nodiscard]] TakingInput at(MonotonicTime now) const {

@@ -1,4 +1,4 @@
-// What is left out of a room's picture, against rays and exact arithmetic.
+// The objects left out of a room's picture, against rays and exact arithmetic.
 
 #include "app/scene/inner_box.h"
 #include "app/scene/room_culling.h"

@@ -1,5 +1,5 @@
 // The staff's pictures in stereo: each eye sees the whole picture in its part of the display's, and the alignment pattern
-// tells the eyes apart. What each pixel may be follows from the picture without stereo alone; the letters are compared with
+// tells the eyes apart. The colour allowed for each pixel follows from the picture without stereo alone; the letters are compared with
 // the typeface's own.
 
 #include "app/render/read_back.h"

@@ -24,7 +24,7 @@ protected:
         std::int64_t bytes = 0; ///< of the show
         std::uint64_t gpu_bytes = 0;
     };
-    /// What a layout costs whose eyes are both in one place.
+    /// The cost of a layout whose eyes are both in one place.
     Held held(settings::Stereo stereo) {
         show.reset();
         settings.eye.stereo = stereo;

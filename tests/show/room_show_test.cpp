@@ -112,7 +112,7 @@ public:
     std::unique_ptr<show::RoomShow> show; ///< uses the display's context
 };
 
-/// Of the usual settings' screen.
+/// The place of a pixel on the usual settings' screen.
 glm::dvec3 pixel_on(double x, double y) {
     return {-0.6 + 1.2 * x / width, 0.7, 0.85 - 0.675 * y / height};
 }
@@ -375,7 +375,7 @@ TEST(RoomModels, KeepsItsBudgetAndUnloadsWhatIsLeastNeeded) {
         }
         return there;
     };
-    // What was never read counts as larger, since its texture is not known: the first frames find out.
+    // A level that was never read counts as larger, since its texture is not known: the first frames find out.
     for (int k = 0; k < 4; ++k) {
         static_cast<void>(
             frame({k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0, k == 3 ? 1.0 : 0.0}));

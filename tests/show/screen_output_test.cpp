@@ -16,7 +16,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// What happens to both displays, in order.
+/// The events of both displays, in order.
 struct Log {
     std::vector<std::string> lines;
     [[nodiscard]] std::ptrdiff_t count(const std::string& line) const {

@@ -1,4 +1,4 @@
-// What torches throw, in memory: read from a pack by the thread, uploaded in pieces, released with its artifact; films frame by
+// Torches' contents in memory: read from a pack by the thread, uploaded in pieces, released with its artifact; films frame by
 // frame.
 #include "app/image/film_frame.h"
 #include "app/pack/pack_file.h"

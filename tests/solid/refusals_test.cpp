@@ -1,4 +1,4 @@
-// What is no prop is refused in one sentence with the place and the amount.
+// A file that is no prop is refused in one sentence with the place and the amount.
 #include "app/solid/make_solid.h"
 #include "tests/solid/bodies.h"
 

@@ -41,7 +41,7 @@ TEST(SimulatedTracker, AnyRhythmOfPollsHandsOutTheSameSamples) {
     EXPECT_TRUE(std::equal(samples.begin(), samples.end(), expected.begin(), same));
 }
 
-/// Whoever has a torch moves the prop and the head as before.
+/// A visitor with a torch moves the prop and the head as before.
 TEST(SimulatedTracker, HasATorchOnlyWhereItIsAskedFor) {
     SimulatedVisitor visitor;
     visitor.torch = true;

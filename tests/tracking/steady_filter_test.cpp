@@ -83,7 +83,7 @@ double tremor_mm(PoseFilter& filter, double rate_hz) {
     return 1e3 * std::sqrt(sum / count);
 }
 
-/// Of the light, in a sweep that has gone on for 0.4 s: behind the true one, at the sweep's speed.
+/// The lag of the light, in a sweep that has gone on for 0.4 s: behind the true one, at the sweep's speed.
 double lag_ms(PoseFilter& filter, double rate_hz) {
     double sum = 0.0;
     int count = 0;

@@ -1,4 +1,4 @@
-// What plays, what has priority, what ends when; poses against matrices written out.
+// Which behaviour plays, which has priority, when each ends; poses against matrices written out.
 
 #include "app/world/curve.h"
 #include "app/world/player.h"

@@ -11,7 +11,7 @@
 ///          codes.
 /// Judged   Shared: pixels whose square is crossed by an edge between two faces in either picture of a step;
 ///          the eye and the lens see both faces. Beside: pixels 2 to 5 pixels from such edges in both
-///          pictures; they show how much the artifact changes by itself. Of either kind, only pixels that
+///          pictures; they show how much the artifact changes by itself. Both kinds: only pixels that
 ///          show the artifact, with all their neighbours.
 /// Threads  the one whose context is current.
 /// Errors   any error from making the techniques.

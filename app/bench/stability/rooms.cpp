@@ -101,7 +101,7 @@ StabilityResult on_the_plane(const StabilityOptions&) {
     return result;
 }
 
-/// An object of 6 m with the eye and the screen in it. What is behind the eye is not drawn.
+/// An object of 6 m with the eye and the screen in it. The part behind the eye is not drawn.
 StabilityResult around_the_eye(const StabilityOptions&) {
     StabilityResult result;
     const glm::dvec3 middle(0.0, 0.5, 2.0);
@@ -285,7 +285,7 @@ StabilityResult ten_thousand(const StabilityOptions&) {
              {"corners compared, short of 1000", 0.0, std::fmax(0.0, 1000.0 - figures.seen)}}};
 }
 
-/// From 0.1 mm before the eye to 100 m. What is nearer than 1/500 of the farthest may be cut away.
+/// From 0.1 mm before the eye to 100 m. A part nearer than 1/500 of the farthest may be cut away.
 StabilityResult depth_ratios(const StabilityOptions&) {
     const glm::dvec3 middle(0.0, 0.7, 0.5);
     const exact::SetUp set_up = set_up_of(screen_at(middle, 1.2), {0.0, 0.0, 0.5});

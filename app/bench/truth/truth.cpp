@@ -170,7 +170,7 @@ public:
         glm::dvec3 direction{0.0}; ///< from the eye
         LitPlace lit;
     };
-    /// What the ray through `pixel` must show; Nothing if it does not light the prop.
+    /// The true surface along the ray through `pixel`; Nothing if it does not light the prop.
     [[nodiscard]] Seen look(const glm::dvec2& pixel, Sight& sight) const {
         const glm::dvec3 projector = view_.prop_from_projector.translation;
         const glm::dvec3 ray = view_.prop_from_projector.direction(view_.projector.ray(pixel));

@@ -19,7 +19,7 @@ struct PutCells {
     std::vector<std::optional<std::size_t>> cell_of; ///< one for each node of the mesh; none: no cell
 };
 
-/// `behaviours`: with the mesh's nodes as cells. `options`: those of the whole pack, which was baked. What is lost is
+/// `behaviours`: with the mesh's nodes as cells. `options`: those of the whole pack, which was baked. Losses are
 /// added to `notes`.
 [[nodiscard]] Result<PutCells> put_cells(pack::Pack& pack, const bake::SourceMesh& mesh,
                                          std::vector<pack::PackBehaviour> behaviours,

@@ -20,7 +20,7 @@ struct MadeSite {
     std::vector<std::string> told; ///< for the report, a line each: regions, triangles, errors
 };
 
-/// `mesh`: of the whole, which was baked into `pack` with `options`. What is lost is added to `notes`.
+/// `mesh`: of the whole, which was baked into `pack` with `options`. Losses are added to `notes`.
 [[nodiscard]] Result<MadeSite> put_site(pack::Pack& pack, const bake::SourceMesh& mesh,
                                         const bake::SiteOptions& site, const bake::BakeOptions& options,
                                         std::vector<bake::SourceNote>& notes);

@@ -30,7 +30,7 @@ constexpr bake::FilmLimits film_limits{.min_side = pack::min_torch_picture_px,
                                        .max_side = pack::max_film_px,
                                        .max_frames = pack::max_film_frames};
 
-/// Of the curator's files.
+/// The size of the curator's files, with its unit.
 std::string in_units(const std::vector<std::filesystem::path>& files) {
     std::uint64_t bytes = 0;
     for (const std::filesystem::path& file : files) {

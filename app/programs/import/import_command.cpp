@@ -215,7 +215,7 @@ std::vector<library::ImportedPack> stick_report_of(FileTree& stick, const Import
                                           arguments.confirmed);
 }
 
-/// A copy that the staff may confirm, once for each time that a stick is put in. What cannot be written is not offered.
+/// A copy that the staff may confirm, once for each time that a stick is put in. A copy that cannot be written is not offered.
 void offer_copy(FileTree& stick, const ImportArguments& arguments, library::ImportRequest& request) {
     const bool fails =
         std::any_of(request.stick_report.begin(), request.stick_report.end(),

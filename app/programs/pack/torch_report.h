@@ -1,4 +1,4 @@
-/// What a pack's torch can show, in the reports of frustumscreen-pack.
+/// The contents of a pack's torch, in the reports of frustumscreen-pack.
 ///
 /// Errors   none: of a pack whose section is damaged nothing is reported (`verify` tells the reason).
 /// Threads  pure; any.

@@ -19,7 +19,7 @@ std::string sheet_of(const image::Image8& sheet, std::string_view kind, const st
                        data_address("image/webp", image::encode_film_frame(sheet, quality)));
 }
 
-/// What the script moves with the pointer.
+/// The part that the script moves with the pointer.
 std::string thrown_of(const TorchPictures& torch, const std::string& name) {
     std::string html;
     if (!torch.lit.texels.empty()) {

@@ -154,7 +154,7 @@ struct Studio {
     }
 };
 
-/// What the visitor's eye sees: the screen shines by its picture for this eye.
+/// The view of the visitor's eye: the screen shines by its picture for this eye.
 simulation::VisitorScene visitor_scene(const Studio& studio, const tracking::TrackedState& tracked_state,
                                        const glm::dvec3& eye_m) {
     const settings::Settings& settings = studio.settings;

@@ -31,7 +31,7 @@ Result<std::string> small_text(const std::filesystem::path& file) {
     return std::string(as_text(bytes));
 }
 
-/// What this sees of the disk with the packs may be read-only for it alone; the watchdog's notes tell of the disk.
+/// The disk with the packs may be read-only for this process alone; the watchdog's notes tell of the disk.
 std::string document_to_share(const status::KnownExhibit& known) {
     auto document = nlohmann::ordered_json::parse(status::status_document(known));
     if (auto& machine = document["machine"]; machine.is_object() && machine["disk"].is_object()) {
