@@ -328,9 +328,9 @@ void all_settings(auto& file, auto& settings) {
     table("calibration", "The measured projector and tracker.",
           [&](auto& fields) { calibration_settings(fields, settings.calibration); });
     table("panel", "The buttons.", [&](auto& fields) { panel_settings(fields, settings.panel); });
-    table("camera", "What looks at the table.",
+    table("camera", "The camera above the table.",
           [&](auto& fields) { camera_settings(fields, settings.camera); });
-    table("exhibit", "What is shown and said.",
+    table("exhibit", "The exhibit's pictures and words.",
           [&](auto& fields) { exhibit_settings(fields, settings.exhibit); });
     table("sound", "Speech and its volume.", [&](auto& fields) { sound_settings(fields, settings.sound); });
     table(
