@@ -2,10 +2,10 @@
 
 #include "firmware_host/base/calendar_day.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/folder_entries.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 
 namespace frustumscreen::counts {
@@ -91,17 +91,16 @@ Result<void> keep_day(const fs::path& folder, const DayCounts& counts) {
 
 void drop_old_days(const fs::path& folder) {
     std::map<std::chrono::sys_days, std::vector<fs::path>> files;
-    std::error_code stop;
-    fs::directory_iterator entry(folder, stop);
-    for (; !stop && entry != fs::directory_iterator(); entry.increment(stop)) {
-        const bool is_ours = is_counts(entry->path()) || entry->path().extension() == ".bad";
-        if (const auto day = day_of(entry->path()); day && is_ours) {
-            files[*day].push_back(entry->path());
+    for (const fs::directory_entry& entry : entries_of(folder)) {
+        const bool is_ours = is_counts(entry.path()) || entry.path().extension() == ".bad";
+        if (const auto day = day_of(entry.path()); day && is_ours) {
+            files[*day].push_back(entry.path());
         }
     }
     while (files.size() > max_days) {
         for (const fs::path& file : files.begin()->second) {
-            fs::remove(file, stop);
+            std::error_code stays;
+            fs::remove(file, stays);
         }
         files.erase(files.begin());
     }
@@ -110,21 +109,18 @@ void drop_old_days(const fs::path& folder) {
 Result<ReadCounts> read_counts(const fs::path& folder) {
     ReadCounts read;
     std::vector<fs::path> files;
-    std::error_code failed;
-    fs::directory_iterator entry(folder, failed);
-    for (; !failed && entry != fs::directory_iterator(); entry.increment(failed)) {
-        if (is_counts(entry->path())) {
-            files.push_back(entry->path());
-        } else if (entry->path().extension() == ".bad") {
-            read.trouble.push_back(entry->path().string() + ": it was damaged, and was put aside");
+    const FolderEntries listed = entries_of(folder);
+    if (listed.failed) {
+        return bad_input("counts.no_folder", "{}: no counts can be read there: {}", folder.string(),
+                         listed.failed.message());
+    }
+    for (const fs::directory_entry& entry : listed) {
+        if (is_counts(entry.path())) {
+            files.push_back(entry.path());
+        } else if (entry.path().extension() == ".bad") {
+            read.trouble.push_back(entry.path().string() + ": it was damaged, and was put aside");
         }
     }
-    if (failed) {
-        return bad_input("counts.no_folder", "{}: no counts can be read there: {}", folder.string(),
-                         failed.message());
-    }
-    std::sort(files.begin(), files.end());
-    std::sort(read.trouble.begin(), read.trouble.end());
     for (const fs::path& file : files) {
         Result<DayCounts> counts = read_day(file);
         if (!counts) {

@@ -1,5 +1,7 @@
 #include "app/watch/machine.h"
 
+#include "firmware_host/base/folder_entries.h"
+
 #include <sys/statvfs.h>
 
 #include <algorithm>
@@ -21,11 +23,9 @@ constexpr std::array<std::string_view, 4> processor_sensors{"coretemp", "k10temp
 
 template <typename Visit>
 void for_each_in(const fs::path& folder, std::string_view begin, const Visit& visit) {
-    std::error_code stop;
-    fs::directory_iterator entry(folder, stop);
-    for (; !stop && entry != fs::directory_iterator(); entry.increment(stop)) {
-        if (entry->path().filename().string().starts_with(begin)) {
-            visit(entry->path());
+    for (const fs::directory_entry& entry : entries_of(folder)) {
+        if (entry.path().filename().string().starts_with(begin)) {
+            visit(entry.path());
         }
     }
 }

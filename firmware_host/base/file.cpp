@@ -1,6 +1,7 @@
 #include "firmware_host/base/file.h"
 
 #include "firmware_host/base/descriptor.h"
+#include "firmware_host/base/folder_entries.h"
 #include "firmware_host/base/open_file.h"
 #include "firmware_host/base/streamed_file.h"
 
@@ -132,12 +133,11 @@ Result<void> write_file_with(const std::filesystem::path& path,
 
 void clear_partial_files(const std::filesystem::path& path) {
     const std::string target = path.filename().string();
-    std::error_code stop; // files that cannot be listed or removed stay
-    std::filesystem::directory_iterator entry(path.has_parent_path() ? path.parent_path() : ".", stop);
-    for (; !stop && entry != std::filesystem::directory_iterator(); entry.increment(stop)) {
-        std::error_code kept;
-        if (is_left_behind(entry->path().filename().string(), target) && entry->is_regular_file(kept)) {
-            std::filesystem::remove(entry->path(), kept);
+    for (const std::filesystem::directory_entry& entry :
+         entries_of(path.has_parent_path() ? path.parent_path() : ".")) {
+        std::error_code kept; // files that cannot be listed or removed stay
+        if (is_left_behind(entry.path().filename().string(), target) && entry.is_regular_file(kept)) {
+            std::filesystem::remove(entry.path(), kept);
         }
     }
 }

@@ -1,4 +1,5 @@
 #include "firmware_host/base/descriptor.h"
+#include "firmware_host/base/folder_entries.h"
 #include "firmware_host/camera/v4l2_device.h"
 
 #include <fcntl.h>
@@ -70,9 +71,8 @@ class V4l2Files final : public V4l2Devices {
 public:
     [[nodiscard]] std::vector<std::string> list() override {
         std::vector<std::pair<int, std::string>> found;
-        std::error_code error;
-        for (fs::directory_iterator it("/dev", error), end; !error && it != end; it.increment(error)) {
-            const std::string& path = it->path().native();
+        for (const fs::directory_entry& entry : entries_of("/dev")) {
+            const std::string& path = entry.path().native();
             if (path.rfind(prefix, 0) != 0) {
                 continue;
             }

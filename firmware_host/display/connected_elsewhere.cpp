@@ -1,22 +1,20 @@
 #include "firmware_host/display/connected_elsewhere.h"
 
+#include "firmware_host/base/folder_entries.h"
+
 #include <algorithm>
 #include <fstream>
-#include <system_error>
 
 namespace frustumscreen::display {
 
 std::vector<std::string> connected_connectors(const std::filesystem::path& folder) {
     std::vector<std::string> connected;
-    std::error_code failed;
-    for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
-         entry.increment(failed)) {
+    for (const std::filesystem::directory_entry& entry : entries_of(folder)) {
         std::string status;
-        if (std::ifstream file(entry->path() / "status"); file >> status && status == "connected") {
-            connected.push_back(entry->path().filename().string());
+        if (std::ifstream file(entry.path() / "status"); file >> status && status == "connected") {
+            connected.push_back(entry.path().filename().string());
         }
     }
-    std::sort(connected.begin(), connected.end());
     return connected;
 }
 

@@ -1,5 +1,6 @@
 #include "firmware_host/display/kms_card.h"
 
+#include "firmware_host/base/folder_entries.h"
 #include "firmware_host/display/atomic_kms.h"
 #include "firmware_host/display/connected_elsewhere.h"
 #include "firmware_host/display/kms_handles.h"
@@ -41,14 +42,11 @@ Plugged plugged(drmModeConnection connection) {
 
 std::vector<std::string> card_paths(const std::filesystem::path& folder) {
     std::vector<std::string> paths;
-    std::error_code failed;
-    for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
-         entry.increment(failed)) {
-        if (entry->path().filename().string().starts_with("card")) {
-            paths.push_back(entry->path().string());
+    for (const std::filesystem::directory_entry& entry : entries_of(folder)) {
+        if (entry.path().filename().string().starts_with("card")) {
+            paths.push_back(entry.path().string());
         }
     }
-    std::sort(paths.begin(), paths.end());
     return paths;
 }
 

@@ -1,5 +1,6 @@
 #include "firmware_host/panel/key_lines.h"
 
+#include "firmware_host/base/folder_entries.h"
 #include "firmware_host/panel/key_levels.h"
 
 #include <fcntl.h>
@@ -68,8 +69,7 @@ File open_device(const fs::path& path) {
 /// Opens the first device in /dev/input with this name; otherwise returns an error number with the reason.
 tl::expected<File, int> find(const std::string& name) {
     int trouble = ENOENT;
-    std::error_code failed;
-    for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    for (const fs::directory_entry& entry : entries_of(folder)) {
         if (entry.path().filename().string().rfind("event", 0) != 0) {
             continue;
         }

@@ -2,6 +2,7 @@
 
 #include "app/bench/page/report_tables.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/folder_entries.h"
 
 #include <algorithm>
 #include <map>
@@ -37,15 +38,12 @@ std::vector<fs::path> run_folders(const fs::path& folder, const ReportTable& tab
         return {folder / table.folder};
     }
     std::vector<fs::path> folders;
-    std::error_code failed;
-    for (fs::directory_iterator at(folder / table.folder, failed), end; !failed && at != end;
-         at.increment(failed)) {
+    for (const fs::directory_entry& entry : entries_of(folder / table.folder)) {
         std::error_code not_read;
-        if (at->is_directory(not_read)) {
-            folders.push_back(at->path());
+        if (entry.is_directory(not_read)) {
+            folders.push_back(entry.path());
         }
     }
-    std::sort(folders.begin(), folders.end());
     return folders;
 }
 

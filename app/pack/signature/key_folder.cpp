@@ -1,10 +1,10 @@
 #include "app/pack/signature/key_folder.h"
 
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/folder_entries.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 
 namespace frustumscreen::pack {
 
@@ -14,10 +14,13 @@ constexpr std::uintmax_t max_file_bytes = 4096;
 
 Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
-    std::error_code stop;
-    std::filesystem::directory_iterator entry(folder, stop);
-    for (; !stop && entry != std::filesystem::directory_iterator(); entry.increment(stop)) {
-        const std::string name = entry->path().filename().string();
+    const FolderEntries listed = entries_of(folder);
+    if (listed.failed) {
+        return bad_input("keys.unreadable_folder", "{}: the folder of public keys cannot be read: {}",
+                         folder.string(), listed.failed.message());
+    }
+    for (const std::filesystem::directory_entry& entry : listed) {
+        const std::string name = entry.path().filename().string();
         if (!name.ends_with(".pub") || name.starts_with('.')) {
             continue;
         }
@@ -25,13 +28,8 @@ Result<std::vector<std::filesystem::path>> key_files(const std::filesystem::path
             return bad_input("keys.too_many", "{}: it has more than {} public keys; remove some",
                              folder.string(), max_trusted_keys);
         }
-        files.push_back(entry->path());
+        files.push_back(entry.path());
     }
-    if (stop) {
-        return bad_input("keys.unreadable_folder", "{}: the folder of public keys cannot be read: {}",
-                         folder.string(), stop.message());
-    }
-    std::sort(files.begin(), files.end());
     return files;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/settings/language_tag.h"
 #include "assets_baked/texts/recorded_speech.h"
+#include "firmware_host/base/folder_entries.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -16,14 +17,11 @@ namespace fs = std::filesystem;
 WordsFolder list_words_folder(const fs::path& folder) {
     WordsFolder listed;
     listed.languages = texts::builtin_word_languages();
-    std::error_code failed;
-    for (fs::directory_iterator each(folder, failed); !failed && each != fs::directory_iterator();
-         each.increment(failed)) {
-        if (each->path().extension() == ".toml") {
-            listed.word_files.push_back(each->path());
+    for (const fs::directory_entry& each : entries_of(folder)) {
+        if (each.path().extension() == ".toml") {
+            listed.word_files.push_back(each.path());
         }
     }
-    std::sort(listed.word_files.begin(), listed.word_files.end());
     for (const fs::path& file : listed.word_files) {
         const std::string name = file.stem().string();
         const std::optional<std::string> language = settings::parse_language_tag(name);

@@ -3,6 +3,7 @@
 #include "app/pack/container/sha256.h"
 #include "assets_baked/folder/artifact_file.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/folder_entries.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
@@ -78,20 +79,19 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 
 Result<Collection> list_collection(const fs::path& folder, const fs::path& output) {
     Collection collection;
-    std::error_code error;
-    fs::directory_iterator entries(folder, error);
-    for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    const FolderEntries listed = entries_of(folder);
+    for (const fs::directory_entry& entry : listed) {
         std::error_code none;
-        const bool is_hidden = entries->path().filename().string().starts_with('.');
-        if (!is_hidden && !fs::equivalent(entries->path(), output, none)) {
-            add(*entries, collection);
+        const bool is_hidden = entry.path().filename().string().starts_with('.');
+        if (!is_hidden && !fs::equivalent(entry.path(), output, none)) {
+            add(entry, collection);
         }
     }
-    if (error) {
+    if (listed.failed) {
         return bad_input("batch.unreadable_folder",
                          "{}: cannot be read as a folder of objects: {}; name the folder in which they "
                          "lie",
-                         folder.string(), error.message());
+                         folder.string(), listed.failed.message());
     }
     std::sort(collection.objects.begin(), collection.objects.end(), [](const auto& a, const auto& b) {
         return std::pair(a.name, a.input.string()) < std::pair(b.name, b.input.string());

@@ -3,6 +3,7 @@
 #include "app/programs/common/guarded_main.h"
 #include "app/programs/import/import_command.h"
 #include "app/programs/import/import_watcher.h"
+#include "firmware_host/base/folder_entries.h"
 #include "firmware_host/base/version.h"
 
 #include <fmt/format.h>
@@ -44,10 +45,8 @@ std::string unescaped_label(std::string_view escaped) {
 /// result may be any bytes: pass it through printable() before it is shown.
 std::string label_in(const std::filesystem::path& folder) {
     constexpr std::string_view beginning = "label=";
-    std::error_code failed;
-    for (std::filesystem::directory_iterator each(folder, failed), end; !failed && each != end;
-         each.increment(failed)) {
-        const std::string name = each->path().filename().string();
+    for (const std::filesystem::directory_entry& each : entries_of(folder)) {
+        const std::string name = each.path().filename().string();
         if (name.starts_with(beginning)) {
             return unescaped_label(std::string_view(name).substr(beginning.size()));
         }

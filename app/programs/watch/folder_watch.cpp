@@ -1,5 +1,7 @@
 #include "app/programs/watch/folder_watch.h"
 
+#include "firmware_host/base/folder_entries.h"
+
 #include <fmt/format.h>
 #include <sys/inotify.h>
 #include <unistd.h>
@@ -76,8 +78,8 @@ Result<void> FolderWatch::add(const std::filesystem::path& folder, std::set<int>
         return {};
     }
     watched_[number] = folder;
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    for (const std::filesystem::directory_entry& entry : entries_of(folder)) {
+        std::error_code none;
         if (entry.is_directory(none) && !is_passing_name(entry.path().filename().string())) {
             TRY_VOID(add(entry.path(), seen));
         }

@@ -5,6 +5,7 @@
 #include "app/watch/service_ends.h"
 #include "firmware_host/base/calendar_day.h"
 #include "firmware_host/base/file.h"
+#include "firmware_host/base/folder_entries.h"
 
 #include <fmt/format.h>
 
@@ -55,11 +56,9 @@ double value_of(const fs::path& file, std::string_view key, double otherwise) {
 /// Calls `visit` for each entry of a folder whose name begins with `begin`.
 template <typename Visit>
 void for_each_in(const fs::path& folder, std::string_view begin, const Visit& visit) {
-    std::error_code stop;
-    fs::directory_iterator entry(folder, stop);
-    for (; !stop && entry != fs::directory_iterator(); entry.increment(stop)) {
-        if (entry->path().filename().string().starts_with(begin)) {
-            visit(entry->path());
+    for (const fs::directory_entry& entry : entries_of(folder)) {
+        if (entry.path().filename().string().starts_with(begin)) {
+            visit(entry.path());
         }
     }
 }
