@@ -73,6 +73,11 @@ protected:
         torch.plain = torch.lit = image::Image8(16, 4, {9, 90, 7, 255});
         torch.picture = image::Image8(8, 8, {1, 2, 3, 255});
         media.torches = {torch};
+        StatePicture found;
+        found.state.name = hostile;
+        found.state.titles = {{"en", hostile}};
+        found.picture = image::Image8(8, 4, {9, 9, 70, 255});
+        media.states = {found};
     }
     [[nodiscard]] int check(const std::string& page, const std::string& options) const {
         put("page.html", page);
@@ -89,7 +94,7 @@ protected:
 TEST_F(PreviewPage, LoadsNothingRunsNothingElseAndSaysAll) {
     const std::string page = preview_page(pack, facts, media);
     EXPECT_EQ(check(page,
-                    "--pictures 11 --sounds 1 --text 'alert(\"1\")</script><img src=http://x/y onerror=z>' "
+                    "--pictures 12 --sounds 1 --text 'alert(\"1\")</script><img src=http://x/y onerror=z>' "
                     "--text 'first line' --text 'جرة' --text 0.123 --text 'أدر الغطاء' --text 'place 1 is "
                     "turned to the visitor' --text 'could not set this text'"),
               0);
@@ -112,6 +117,7 @@ TEST_F(PreviewPage, APackWithoutTextsAndPlacesHasAPageToo) {
     media.languages.clear();
     media.behaviours.clear();
     media.torches.clear();
+    media.states.clear();
     media.table_picture = image::Image8();
     EXPECT_EQ(check(preview_page(bare, {}, media), "--pictures 1 --sounds 0 --text 'Nothing of the scan'"),
               0);

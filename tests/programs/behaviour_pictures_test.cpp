@@ -1,7 +1,10 @@
-// The preview's pictures of a behaviour: a red lid on a blue box jumps up after half of its time. The pictures before are
-// equal, so are those after, and between them red has moved up.
+// The preview's pictures of a behaviour and of states: a red lid on a blue box jumps up after half of its time. The pictures
+// before are equal, so are those after, and between them red has moved up. A state without the lid shows no red.
+#include "app/pack/pack_file.h"
 #include "app/programs/preview/behaviour_pictures.h"
 #include "app/programs/preview/html_parts.h"
+#include "app/programs/preview/state_pictures.h"
+#include "tests/folders.h"
 #include "tests/programs/curator_folder.h"
 
 #include <array>
@@ -51,11 +54,11 @@ struct Red {
     std::size_t texels = 0;
     double row = 0.0; ///< their mean
 };
-Red red_in(const BehaviourPictures& pictures, int picture) {
+Red red_in(const image::Image8& sheet, int width, int picture) {
     Red red;
-    for (int y = 0; y < pictures.size.y; ++y) {
-        for (int x = 0; x < pictures.size.x; ++x) {
-            const glm::u8vec4 colour = pictures.sheet.at(picture * pictures.size.x + x, y);
+    for (int y = 0; y < sheet.height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::u8vec4 colour = sheet.at(picture * width + x, y);
             if (colour.r > 60 && colour.r > 2 * colour.b) {
                 ++red.texels;
                 red.row += y;
@@ -105,8 +108,8 @@ TEST_F(Behaviours, AreDrawnAtEqualStepsOfTheirTime) {
         EXPECT_TRUE(are_equal(pictures, picture, 0)) << picture;
         EXPECT_TRUE(are_equal(pictures, picture + 4, 4)) << picture;
     }
-    const Red before = red_in(pictures, 0);
-    const Red after = red_in(pictures, 7);
+    const Red before = red_in(pictures.sheet, pictures.size.x, 0);
+    const Red after = red_in(pictures.sheet, pictures.size.x, 7);
     EXPECT_GT(before.texels, 50U);
     EXPECT_GT(after.texels, 50U);
     EXPECT_LT(after.row, before.row - 3.0) << "rows go down";
@@ -124,6 +127,47 @@ TEST_F(Behaviours, AreOnThePageOfABake) {
         << text("err.txt");
     EXPECT_EQ(count("box.html", "class=\"behaviour\""), 0U);
     EXPECT_EQ(text("box.html").find("What moves"), std::string::npos);
+}
+
+constexpr const char* box_states = R"(
+[[states]]
+name = "as-found"
+titles = { en = "As found", de = "Wie <gefunden>" }
+[[states]]
+name = "lidless"
+hide = ["lid"]
+titles = { en = "Without its lid" }
+[[states]]
+name = "thrown"
+behaviour = "jump"
+titles = { en = "Thrown up" }
+)";
+
+TEST_F(Behaviours, EndInAStateThatHasAPicture) {
+    put("box/artifact.toml", text("box/artifact.toml") + box_states);
+    ASSERT_EQ(run("frustumscreen-bake box -o box.fspack --preview box.html --while-watched"), 0)
+        << text("err.txt");
+    const pack::VerifiedPack pack = pack::load_pack(folder / "box.fspack").value();
+    TurnOptions options;
+    options.size = {400, 280};
+    options.projected_width = 960;
+    const Result<std::vector<StatePicture>> drawn = state_pictures(folder / "box.fspack", *pack, options);
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    ASSERT_EQ(drawn->size(), 3U);
+    const auto red = [&](std::size_t state) { return red_in((*drawn)[state].picture, 200, 0); };
+    EXPECT_EQ((*drawn)[0].state.name, "as-found");
+    EXPECT_GT(red(0).texels, 50U);
+    EXPECT_EQ(red(1).texels, 0U) << "the lid is hidden";
+    EXPECT_GT(red(2).texels, 50U);
+    EXPECT_LT(red(2).row, red(0).row - 3.0) << "rows go down";
+
+    EXPECT_EQ(count("box.html", "class=\"state\""), 3U);
+    EXPECT_NE(text("box.html").find("Wie &lt;gefunden&gt;"), std::string::npos);
+    EXPECT_EQ(
+        std::system(fmt::format("'{}/tests/preview/check_page.py' '{}/box.html' --reloads --text 'Thrown up'",
+                                source_dir(), folder.string())
+                        .c_str()),
+        0);
 }
 
 } // namespace

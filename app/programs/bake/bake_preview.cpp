@@ -73,11 +73,13 @@ Result<std::uint64_t> write_preview(const BakeRequest& request, const BakeResult
                         pack::place(result.pack, result.prop.shape).metres_per_box));
     TRY(std::vector<BehaviourPictures> behaviours, behaviour_pictures(result.file, options));
     TRY(std::vector<TorchPictures> torches, torch_pictures(result.file, result.pack, options));
+    TRY(std::vector<StatePicture> states, state_pictures(result.file, result.pack, options));
     const PreviewMedia media{.turn = std::move(turn),
                              .table_picture = result.pack.table_picture,
                              .languages = std::move(languages),
                              .behaviours = std::move(behaviours),
-                             .torches = std::move(torches)};
+                             .torches = std::move(torches),
+                             .states = std::move(states)};
     const std::string page = preview_page(result.pack, preview_facts(result), media,
                                           request.watched ? PageKind::Reloading : PageKind::Final);
     TRY_VOID(write_file(request.preview, as_bytes(page)));

@@ -1,6 +1,6 @@
 /// Pictures for the preview's page: what a visitor sees while a behaviour plays, in equal steps of its time.
 ///
-/// Drawn as the turn's pictures (preview_view.h), with the prop's front towards the visitor.
+/// Drawn by front_pictures.h.
 ///
 /// Units    seconds since the behaviour began.
 /// Errors   as load_world and load_pack; no OpenGL ES.

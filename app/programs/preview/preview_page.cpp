@@ -335,7 +335,7 @@ std::string preview_page(const pack::PackDescription& pack, const PreviewFacts& 
         "cm wide; right the "
         "words for reading.</p>\n" +
         texts + hotspots_part(pack, media.languages) + behaviours_part(media.behaviours) +
-        torches_part(media.torches) + states_part(pack) + levels_part(pack, facts) +
+        torches_part(media.torches) + states_part(media.states) + levels_part(pack, facts) +
         source_part(pack, facts) + "</main>\n";
     page += fmt::format("<footer>Made by {} from {}. This page needs no network and no other file.</footer>\n"
                         "<script>{}</script>\n",

@@ -11,6 +11,7 @@
 #include "app/pack/attribution.h"
 #include "app/pack/pack.h"
 #include "app/programs/preview/behaviour_pictures.h"
+#include "app/programs/preview/state_pictures.h"
 #include "app/programs/preview/text_pictures.h"
 #include "app/programs/preview/torch_pictures.h"
 #include "app/programs/preview/turn_pictures.h"
@@ -48,6 +49,7 @@ struct PreviewMedia {
     std::vector<ProjectedLanguage> languages;
     std::vector<BehaviourPictures> behaviours = {};
     std::vector<TorchPictures> torches = {};
+    std::vector<StatePicture> states = {};
 };
 
 /// A page of a bake that is being watched reloads itself every two seconds.

@@ -1,34 +1,44 @@
 #include "app/programs/preview/states_part.h"
 
-#include "app/pack/pack_states.h"
+#include "app/programs/preview/html_parts.h"
 #include "firmware_host/base/xml_text.h"
 
 #include <fmt/format.h>
 
-#include <vector>
-
 namespace frustumscreen::programs {
 
-std::string states_part(const pack::PackDescription& pack) {
-    const std::vector<pack::PackState> states =
-        pack::states_of(pack).value_or(std::vector<pack::PackState>());
+namespace {
+
+constexpr float quality = 82.0F;
+
+std::string figure_of(const StatePicture& drawn) {
+    const std::string name = xml_text(drawn.state.name);
+    std::string told;
+    for (const pack::PackLabel& title : drawn.state.titles) {
+        told += fmt::format("<br>{0}: <span lang=\"{0}\" dir=\"auto\">{1}</span>", xml_text(title.language),
+                            xml_text(title.text));
+    }
+    return fmt::format("<figure class=\"state\"><img alt=\"{0}: the artifact in this state\" src=\"{1}\">"
+                       "<figcaption><b>{0}</b>{2}</figcaption></figure>\n",
+                       name, data_address("image/webp", image::encode_lossy_webp(drawn.picture, quality)),
+                       told);
+}
+
+} // namespace
+
+std::string states_part(const std::vector<StatePicture>& states) {
     if (states.empty()) {
         return {};
     }
-    std::string items;
-    for (const pack::PackState& state : states) {
-        items += fmt::format("<li><b>{}</b>", xml_text(state.name));
-        for (const pack::PackLabel& title : state.titles) {
-            items += fmt::format("<br>{0}: <span lang=\"{0}\" dir=\"auto\">{1}</span>",
-                                 xml_text(title.language), xml_text(title.text));
-        }
-        items += "</li>\n";
+    std::string figures;
+    for (const StatePicture& drawn : states) {
+        figures += figure_of(drawn);
     }
     return fmt::format(
         "<h2>States side by side</h2>\n<p class=\"soft\">Where the exhibit has windows, a visitor "
         "pins what the prop shows onto the table. Further presses pin these states beside it, in "
-        "the same view, each with its title below.</p>\n<ol>\n{}</ol>\n",
-        items);
+        "this order and in the same view, each with its title below.</p>\n<div class=\"states\">\n{}</div>\n",
+        figures);
 }
 
 } // namespace frustumscreen::programs
