@@ -170,15 +170,15 @@ TEST(Causes, RightTouchesAreNotDisturbed) {
 
 TEST(Causes, AMoveIsNamedWithItsTouch) {
     for (const Fault fault : {Fault::Source, Fault::Projector}) {
-        const Named count = named(12, fault, 6e-3);
-        EXPECT_GE(count.moved + 2, count.tables);
+        const Named count = named(6, fault, 6e-3);
+        EXPECT_GE(count.moved + 1, count.tables);
         EXPECT_GE(count.near_touch + 1, count.moved);
     }
 }
 
 TEST(Causes, MetalIsNamed) {
-    const Named count = named(12, Fault::Metal, 8e-3);
-    EXPECT_GE(count.metal + 2, count.tables);
+    const Named count = named(6, Fault::Metal, 8e-3);
+    EXPECT_GE(count.metal + 1, count.tables);
     EXPECT_EQ(count.moved, 0);
 }
 

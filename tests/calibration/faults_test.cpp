@@ -178,7 +178,7 @@ void run_faults(std::uint64_t seeds) {
 }
 
 TEST(Faults, NoVerdictPromisesWhatDoesNotHold) {
-    run_faults(6);
+    run_faults(4);
 }
 
 // Fifteen faults of 70 sets each: about a thousand.

@@ -264,6 +264,14 @@ class Machine:
     def granted_s(self):
         return self.given().granted_s
 
+    def processor_s(self):
+        """The host's processor seconds that QEMU has used; 0: it has ended."""
+        try:
+            words = pathlib.Path(f"/proc/{self.pid}/stat").read_text(encoding="ascii").rsplit(")", 1)[1].split()
+        except OSError:
+            return 0.0
+        return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
     def let_run(self, seconds):
         """Waits until the host has granted the guest this many more seconds."""
         until = self.granted_s() + seconds
@@ -298,12 +306,17 @@ class Machine:
             raise MachineError(f"in the guest: {command}: status {ran.status}: {ran.output.strip()}")
         return ran.output
 
-    def read(self, path):
-        """A small file of the guest; None: it cannot be opened. Starts no process there, as `run` does."""
+    def read(self, path, last=None):
+        """A small file of the guest, or its `last` bytes; None: it cannot be opened. Starts no process there, as `run` does."""
         try:
             handle = self._agent.answer({"execute": "guest-file-open", "arguments": {"path": path}})
         except MachineError:
             return None
+        if last is not None:
+            try:
+                self._agent.answer({"execute": "guest-file-seek", "arguments": {"handle": handle, "offset": -last, "whence": "end"}})
+            except MachineError:
+                pass  # the file is shorter
         found = self._agent.answer({"execute": "guest-file-read", "arguments": {"handle": handle, "count": 1 << 16}})
         self._agent.answer({"execute": "guest-file-close", "arguments": {"handle": handle}})
         return base64.b64decode(found["buf-b64"]).decode(errors="replace")

@@ -42,14 +42,14 @@ class Verdicts(unittest.TextTestResult):
         self.took = []  # (seconds, name)
 
     def startTest(self, test):
-        self._begun = time.monotonic()
+        self._begun, self._begun_s = time.monotonic(), HilTest.bench.machine.processor_s()
         super().startTest(test)
 
     def stopTest(self, test):
         super().stopTest(test)
-        took_s = time.monotonic() - self._begun
+        took_s, machine_s = time.monotonic() - self._begun, HilTest.bench.machine.processor_s() - self._begun_s
         self.took.append((took_s, test.id()))
-        self.stream.writeln(f"    {took_s:.0f} s")
+        self.stream.writeln(f"    {took_s:.0f} s, {machine_s:.0f} s of processors for the machine")
 
     def _keep(self, test, error):
         folder = HilTest.bench.evidence_of(test)

@@ -39,9 +39,8 @@ class Watching:
 
     def process(self):
         """The process number of `frustumscreen camera`; None: it does not run."""
-        found = self._machine.run("for p in /proc/[0-9]*; do [ \"$(cat $p/comm 2>/dev/null)\" != frustumscreen ] || "
-                                  "! grep -q camera $p/cmdline || echo ${p#/proc/}; done").output.split()
-        return int(found[-1]) if found else None
+        found = self._machine.run("grep -lzx '[c]amera' /proc/[0-9]*/cmdline 2>/dev/null").output.split()  # the only program with this argument
+        return int(found[-1].split("/")[2]) if found else None
 
     def said(self):
         """All states that the exhibit has reported so far."""

@@ -130,12 +130,12 @@ TEST_F(FilmFile, what_is_no_film_is_told_in_one_sentence) {
     put_picture("small/a.png", picture(1, 1, 1));
     put_picture("small/b.png", picture(1, 1, 1));
     fs::create_directories(folder / "empty");
-    const std::vector<image::Image8> many(20'000, picture(8, 8, 1));
+    const std::vector<image::Image8> many(601, picture(8, 8, 1));
     const std::string huge =
         "RIFF" + four_bytes(30) + "WEBP" +
         chunk("VP8X", std::string("\x02\0\0\0", 4) + three_bytes(16383) + three_bytes(16383));
     const std::vector<std::pair<fs::path, std::vector<std::string>>> faults{
-        {put("many.webp", animation(many, std::vector<int>(many.size(), 40))), {"20000 frames", "600"}},
+        {put("many.webp", animation(many, std::vector<int>(many.size(), 40))), {"601 frames", "600"}},
         {put("one.webp", animation({picture(8, 8, 1)}, {40})), {"1 frame;", "picture ="}},
         {put("large.webp", animation({picture(65, 8, 1), picture(65, 8, 2)}, {40, 40})), {"65 x 8", "64"}},
         {put("cut.webp", good.substr(0, good.size() - 20)), {"cut.webp", "damaged"}},

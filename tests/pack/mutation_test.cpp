@@ -3,10 +3,18 @@
 
 #include <set>
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FRUSTUMSCREEN_FEWER_MUTANTS 3
+#else
+#define FRUSTUMSCREEN_FEWER_MUTANTS 1
+#endif
+
 using namespace frustumscreen;
 using namespace frustumscreen::pack;
 
 namespace {
+
+constexpr int all_mutants = 3000 / FRUSTUMSCREEN_FEWER_MUTANTS;
 
 /// Applies one of the alterations by which fuzzers find most faults.
 void mutate(Bytes& bytes, std::mt19937& random) {
@@ -89,7 +97,7 @@ TEST(Mutants, of_the_file_are_refused_or_usable) {
     const Bytes bytes = samples::bytes_of(samples::full_pack());
     std::mt19937 random(101);
     Count count;
-    while (count.mutants < 3000 && !HasFatalFailure()) {
+    while (count.mutants < all_mutants && !HasFatalFailure()) {
         Bytes mutant = bytes;
         for (unsigned k = 0; k < 1 + random() % 3; ++k) {
             mutate(mutant, random);
@@ -103,7 +111,7 @@ TEST(Mutants, of_the_parts_with_right_hashes_are_refused_or_usable) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     std::mt19937 random(102);
     Count count;
-    while (count.mutants < 3000 && !HasFatalFailure()) {
+    while (count.mutants < all_mutants && !HasFatalFailure()) {
         samples::Entries mutant = entries;
         mutate(mutant.parts[random() % mutant.parts.size()].second, random);
         samples::right_hashes(mutant);
@@ -119,7 +127,7 @@ TEST(Mutants, of_the_manifest_are_refused_or_usable) {
     const auto manifest_bytes = as_bytes(manifest);
     std::mt19937 random(103);
     Count count;
-    while (count.mutants < 2000 && !HasFatalFailure()) {
+    while (count.mutants < all_mutants * 2 / 3 && !HasFatalFailure()) {
         Bytes mutant(manifest_bytes.begin(), manifest_bytes.end());
         mutate(mutant, random);
         judge(samples::put_together(std::string(as_text(mutant)), entries.parts), count);

@@ -10,6 +10,7 @@ commands.toml says what is there before. The exit status is to be 0, and standar
 import argparse
 import collections
 import fnmatch
+import os
 import pathlib
 import re
 import resource
@@ -77,7 +78,8 @@ class Runner:
 
     def __init__(self, words, whole, source, build):
         self.words, self.whole = words, whole
-        self.variables = {"PATH": f"{build / 'bin'}:/usr/bin:/bin", "LC_ALL": "C.UTF-8", "SOURCE": str(source), "BUILD": str(build),
+        kept = {name: value for name, value in os.environ.items() if name.startswith("MALLOC_")}  # of run_test.sh
+        self.variables = kept | {"PATH": f"{build / 'bin'}:/usr/bin:/bin", "LC_ALL": "C.UTF-8", "SOURCE": str(source), "BUILD": str(build),
                           "SHELF": str(whole / "shelf")}
 
     def run_page(self, name, commands):

@@ -312,7 +312,7 @@ TEST(Stereo, AFrameOfTwoEyesAllocatesNothing) {
             long counted = 0;
             for (const bool again : {false, true}) {
                 std::mt19937 random(75);
-                for (int k = 0; k < 40; ++k) {
+                for (int k = 0; k < 12; ++k) {
                     rig.shuffle(random);
                     const long before = allocations_so_far();
                     rig.plan_both(part, even_light);
