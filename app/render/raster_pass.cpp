@@ -521,8 +521,12 @@ int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const s
 }
 
 void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store,
-                                const PixelRectangle& part, const relief::PictureSpan<float>& nearness) {
+                                const PixelRectangle& part, const relief::PictureSpan<float>& nearness,
+                                relief::Facing facing) {
     list_reliefs(plan, store);
+    for (relief::SeenRelief& seen : seen_) {
+        seen.facing = facing;
+    }
     painter_->paint(seen_, 1, {}, nullptr,
                     {.parts = {}, .nearness = nearness, .overlaid = std::span(&part, 1)});
 }
