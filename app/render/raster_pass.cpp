@@ -345,6 +345,7 @@ int RasterPass::show_in_depth(const scene::FramePlan& plan, const ShaderCache& s
         return 0;
     }
     shader->use();
+    shader->bend_by(plan.projector);
     const glm::ivec2 corner = raster.corner + glm::ivec2(plan.picture.viewport.x, plan.picture.viewport.y);
     glUniform4i(shader->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x,
                 corner.y);
