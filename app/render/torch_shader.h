@@ -79,7 +79,8 @@ float ruler(vec2 at_mm, float pixel_mm) {
     return max(marks, covered(abs(at_mm.y), 0.3, pixel_mm));
 }
 
-float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {
+// `width_mm`: of the content at this depth.
+float effect(int source, vec2 from_middle, vec3 size, float pixel, float width_mm) {
     if (source == 4) {
         return covered(abs(length(from_middle) - 0.5 * size.x), size.y, pixel);
     }
@@ -87,7 +88,7 @@ float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {
         return max(covered(from_line(from_middle.x, size.x), size.y, pixel),
                    covered(from_line(from_middle.y, size.x), size.y, pixel));
     }
-    return source == 6 ? ruler(1000.0 * p.xy, 2000.0 * p.z * pixel / beam.x) : 1.0;
+    return source == 6 ? ruler(width_mm * from_middle, width_mm * pixel) : 1.0;
 }
 #endif
 
@@ -112,13 +113,14 @@ vec4 stage(int k, vec2 place, float pixel, vec3 p, vec4 layer) {
 #endif
 #if CONTENT_PARTS & 4
     if (source >= 4 && source <= 6) {
-        colour.a = effect(source, from_middle, stage_size[k], pixel, p);
+        colour.a = effect(source, from_middle, stage_size[k], pixel, 2000.0 * p.z / beam.x);
     }
 #endif
 #if CONTENT_PARTS & 8
     if (source == 7) {
         colour.a = clamp((0.5 * stage_size[k].x - length(from_middle)) / pixel + 0.5, 0.0, 1.0);
-        colour.rgb = decoded(textureLod(seen_by_torch, 0.5 + (place - 0.5) / stage_size[k].z, 0.0).rgb);
+        vec2 from_lens = inverse(mat2(stage_from_content[k])) * (at - 0.5); // of the lens's own middle
+        colour.rgb = decoded(textureLod(seen_by_torch, place - from_lens * (1.0 - 1.0 / stage_size[k].z), 0.0).rgb);
     }
 #endif
     return colour * stage_colour[k];
