@@ -57,10 +57,14 @@ bool is_shaded(vec2 at, float z) {
 }
 #endif
 
+// By which a place that was found by its depth may lie too far away: two steps of 24 bits.
+float place_error = 0.0;
+float error_of(float way_from_eye, float depth_left) { return 2.4e-7 * way_from_eye / (depth_left * depth_left); }
+
 bool is_lit(vec3 p) {
     vec2 at = p.xy / p.z * beam.xy;
     float out_of_shape = beam.w > 0.5 ? dot(at, at) : max(abs(at.x), abs(at.y));
-    return p.z > 0.0 && dot(p, p) <= beam.z * beam.z && out_of_shape <= 1.0 && !is_shaded(at, p.z);
+    return p.z > 0.0 && dot(p, p) <= beam.z * beam.z && out_of_shape <= 1.0 && !is_shaded(at, p.z - place_error);
 }
 
 #if CONTENT_PARTS & 4
@@ -281,6 +285,7 @@ void main() {
             float depth = texelFetch(depths, first + ivec2(x, y), 0).r;
             depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
             vec3 p = eye + (middle + right * (to_first.x + float(x)) + down * (to_first.y + float(y))) / depth_left;
+            place_error = error_of(length(middle), depth_left);
             if (depth < 1.0 && is_lit(p)) {
                 sum += p;
                 lit += 1.0;
@@ -307,6 +312,7 @@ void main() {
     float depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
     vec3 to_place = from_eye(gl_FragCoord.xy);
     vec3 p = eye + to_place / depth_left;
+    place_error = error_of(length(to_place), depth_left);
     float pixel_m = distance(from_eye(gl_FragCoord.xy + vec2(1.0, 0.0)), to_place) / abs(depth_left);
     light(p, vec4(0.0), depth < 1.0 && is_lit(p) ? 1.0 : 0.0, pixel_m);
 }
