@@ -37,8 +37,8 @@ GridView grid_view(const ReliefGrid& grid, double texel_box, const RasterFace& f
 }
 
 /// True if any of the block's cells may face the eye: along an eye ray as long as the distance from the eye
-/// to the block's middle, the height above the surface decreases somewhere.
-FRUSTUMSCREEN_INLINE bool may_face(const ReliefBlock& block, const glm::vec3& eye) {
+/// to the block's middle, the height above the surface decreases somewhere. Away: it increases.
+FRUSTUMSCREEN_INLINE bool may_face(const ReliefBlock& block, const glm::vec3& eye, Facing facing) {
     constexpr float half = 0.5F * block_cells;
     const float du = block.u0 + half - eye.x;
     const float dv = block.v0 + half - eye.y;
@@ -46,6 +46,11 @@ FRUSTUMSCREEN_INLINE bool may_face(const ReliefBlock& block, const glm::vec3& ey
     const float plane = dw - block.w_u * du - block.w_v * dv;
     // The ray turns by about 8 cells / distance across the block; 1 % of the lateral distance covers that.
     const float margin = 0.01F * std::sqrt(du * du + dv * dv);
+    if (facing == Facing::Away) {
+        return plane - std::min(block.gradient_u.x * du, block.gradient_u.y * du) -
+                   std::min(block.gradient_v.x * dv, block.gradient_v.y * dv) + margin >=
+               0.0F;
+    }
     return plane - std::max(block.gradient_u.x * du, block.gradient_u.y * du) -
                std::max(block.gradient_v.x * dv, block.gradient_v.y * dv) - margin <=
            0.0F;
@@ -266,7 +271,7 @@ FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, con
         }
         const glm::vec3& eye = items.grids[0][direction].eye;
         const ReliefBlock& block = relief.blocks[k];
-        if (!may_face(block, eye)) {
+        if (!may_face(block, eye, items.facing)) {
             continue;
         }
         BlockItem item;
@@ -279,7 +284,8 @@ FRUSTUMSCREEN_INLINE void list(BlockItems& items, const BlockRelief& relief, con
 
 } // namespace
 
-void begin_list(BlockItems& items, const BlockRelief& relief, const RasterView& view) {
+void begin_list(BlockItems& items, const BlockRelief& relief, const RasterView& view, Facing facing) {
+    items.facing = facing;
     items.lens = PixelLens(view.projector);
     items.grids.resize(view.faces.size());
     for (std::size_t f = 0; f < view.faces.size(); ++f) {

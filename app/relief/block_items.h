@@ -21,6 +21,9 @@ namespace frustumscreen::relief {
 inline constexpr int rows_of_band = 64; ///< rows of pixels; small, so that the threads finish at about the
                                         ///< same time
 
+/// Which side of the surface is seen. Away: the one that is turned away from the eye, as from inside an object.
+enum class Facing : std::uint8_t { Eye, Away };
+
 /// Maps one direction's grid to a face's pixels.
 struct GridView {
     /// (x t, y t, t) from the grid's (u, v, w, 1): the ideal pixel that lights a point, and the length of its
@@ -48,6 +51,7 @@ struct BlockItem {
 /// The lists keep their memory from frame to frame: nothing is allocated once they are large enough.
 struct BlockItems {
     PixelLens lens;
+    Facing facing = Facing::Eye;
     std::vector<std::array<GridView, 6>> grids; ///< [face][direction]
     std::vector<std::vector<BlockItem>> parts;  ///< of about a thousand blocks each
     std::vector<BlockItem> sorted;              ///< roughly front to back
@@ -58,7 +62,8 @@ struct BlockItems {
 
 /// Makes a list in three steps. `list_part` may run for several parts at once; `begin_list` sets their
 /// number.
-void begin_list(BlockItems& items, const BlockRelief& relief, const RasterView& view);
+void begin_list(BlockItems& items, const BlockRelief& relief, const RasterView& view,
+                Facing facing = Facing::Eye);
 void list_part(BlockItems& items, const BlockRelief& relief, const RasterView& view, std::size_t part,
                Instructions instructions = best_instructions());
 void end_list(BlockItems& items);

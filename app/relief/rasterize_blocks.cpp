@@ -22,7 +22,7 @@ struct ReadyItem {
     std::array<glm::vec3, 4> edges; ///< the face's first ones
     std::span<const glm::dvec3> more_edges;
     CornerMap map;
-    float outward;        ///< sign of the picture area of a cell that faces the eye
+    float outward;        ///< sign of the picture area of a cell whose seen side faces the eye
     std::uint32_t number; ///< of the block, in the samples
     const Dither* dither; ///< used if the rasterization dithers
 };
@@ -43,7 +43,7 @@ FRUSTUMSCREEN_INLINE ReadyItem ready(const BlockRelief& relief, const RasterView
             .edges = first_edges(face),
             .more_edges = more_edges(face),
             .map = corner_map(block, grid),
-            .outward = turn > 0.0F ? -1.0F : 1.0F,
+            .outward = (turn > 0.0F) == (items.facing == Facing::Eye) ? -1.0F : 1.0F,
             .number = share.first_block + item.block,
             .dither = share.dither ? &*share.dither : nullptr};
 }

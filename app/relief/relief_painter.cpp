@@ -85,7 +85,7 @@ void ReliefPainter::list(std::span<const SeenRelief> reliefs) {
         listed.seen = reliefs[k];
         listed.share = {pages_.add(*reliefs[k].relief, reliefs[k].light), reliefs[k].dither};
         layer_pages_.add(*reliefs[k].relief, glm::vec3(1.0F), reliefs[k].layer);
-        begin_list(listed.items, *reliefs[k].relief, *reliefs[k].view);
+        begin_list(listed.items, *reliefs[k].relief, *reliefs[k].view, reliefs[k].facing);
     }
     list_blocks_of_all();
     order_.resize(count_);

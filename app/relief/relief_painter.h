@@ -52,6 +52,7 @@ struct SeenRelief {
     glm::vec3 light{1.0F};                       ///< 0..1, linear: factor of its colours
     /// Other colours, in the order of its own, for DepthPicture::layer; null: its own.
     const std::vector<glm::u8vec4>* layer = nullptr;
+    Facing facing = Facing::Eye;
 };
 
 /// Where something else may hide a relief, or a relief hide it.

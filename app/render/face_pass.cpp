@@ -22,6 +22,7 @@ static_assert(geometry::max_faces < lit_bit);
 void set_view(const Shader& shader, const geometry::Pinhole& pinhole, const Raster& raster) {
     const glm::vec4 pixel(1.0F / glm::vec2(raster.fragments), raster.corner);
     const glm::vec4 ray = ray_from_fragment(pinhole, raster);
+    shader.bend_by(pinhole); // a torch's own picture is straight
     glUniform4fv(shader.location(Uniform::PixelFromFragment), 1, glm::value_ptr(pixel));
     glUniform4fv(shader.location(Uniform::RayFromFragment), 1, glm::value_ptr(ray));
 }
@@ -260,6 +261,7 @@ void FacePass::mark_faces(const scene::FramePlan& plan, const Shader& outline, c
     glStencilMask(0xFF);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     outline.use();
+    outline.bend_by(plan.projector);
     glBindVertexArray(no_attributes_.get());
     for (std::size_t k = 0; k < plan.faces.size(); ++k) {
         // The prop is convex: faces that the projector sees do not hide each other.

@@ -345,6 +345,7 @@ int RasterPass::show_in_depth(const scene::FramePlan& plan, const ShaderCache& s
         return 0;
     }
     shader->use();
+    shader->bend_by(plan.projector);
     const glm::ivec2 corner = raster.corner + glm::ivec2(plan.picture.viewport.x, plan.picture.viewport.y);
     glUniform4i(shader->location(Uniform::Raster), raster.fragments.x, raster.fragments.y, corner.x,
                 corner.y);
@@ -521,8 +522,12 @@ int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const s
 }
 
 void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store,
-                                const PixelRectangle& part, const relief::PictureSpan<float>& nearness) {
+                                const PixelRectangle& part, const relief::PictureSpan<float>& nearness,
+                                relief::Facing facing) {
     list_reliefs(plan, store);
+    for (relief::SeenRelief& seen : seen_) {
+        seen.facing = facing;
+    }
     painter_->paint(seen_, 1, {}, nullptr,
                     {.parts = {}, .nearness = nearness, .overlaid = std::span(&part, 1)});
 }

@@ -60,7 +60,8 @@ public:
 
     /// In place of `paint`: the nearness alone, with one sample a pixel, into a part of memory; other pixels stay as they are.
     void paint_nearness(const scene::FramePlan& plan, const GpuStore& store, const PixelRectangle& part,
-                        const relief::PictureSpan<float>& nearness);
+                        const relief::PictureSpan<float>& nearness,
+                        relief::Facing facing = relief::Facing::Eye);
 
     /// Bytes of GPU memory, as the driver reports.
     [[nodiscard]] std::uint64_t bytes() const;

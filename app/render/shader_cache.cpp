@@ -50,16 +50,6 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
 constexpr std::array<const char*, 9> sampler_names{"image",   "blocks", "covers",        "nearness", "shadow",
                                                    "content", "layer",  "seen_by_torch", "depths"};
 
-/// The lens is constant during a program's lifetime, so its uniforms are set once.
-void set_lens(GLuint program, const geometry::Pinhole& pinhole) {
-    const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
-    const glm::dvec2 focal(pinhole.fx, pinhole.fy);
-    const glm::vec4 lens_from_clip(half / focal, (half - glm::dvec2(pinhole.cx, pinhole.cy)) / focal);
-    const glm::vec3 distortion(pinhole.lens.k1, pinhole.lens.k2, pinhole.bends_to_r2());
-    glUniform4fv(glGetUniformLocation(program, "lens_from_clip"), 1, &lens_from_clip.x);
-    glUniform3fv(glGetUniformLocation(program, "distortion"), 1, &distortion.x);
-}
-
 } // namespace
 
 Result<Shader> Shader::compile(const scene::ShaderKey& key, const std::optional<geometry::Pinhole>& bent_by) {
@@ -76,9 +66,23 @@ Result<Shader> Shader::compile(const scene::ShaderKey& key, const std::optional<
     }
     if (bent_by) {
         made.bends_ = true;
-        set_lens(made.program_.get(), *bent_by);
+        made.lens_from_clip_ = glGetUniformLocation(made.program_.get(), "lens_from_clip");
+        made.distortion_ = glGetUniformLocation(made.program_.get(), "distortion");
+        made.bend_by(*bent_by);
     }
     return made;
+}
+
+void Shader::bend_by(const geometry::Pinhole& pinhole) const {
+    if (!bends_) {
+        return;
+    }
+    const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
+    const glm::dvec2 focal(pinhole.fx, pinhole.fy);
+    const glm::vec4 lens_from_clip(half / focal, (half - glm::dvec2(pinhole.cx, pinhole.cy)) / focal);
+    const glm::vec3 distortion(pinhole.lens.k1, pinhole.lens.k2, pinhole.bends_to_r2());
+    glUniform4fv(lens_from_clip_, 1, &lens_from_clip.x);
+    glUniform3fv(distortion_, 1, &distortion.x);
 }
 
 void Shader::draw_quad() const {

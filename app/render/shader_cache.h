@@ -62,6 +62,8 @@ public:
     [[nodiscard]] static Result<Shader> compile(const scene::ShaderKey& key,
                                                 const std::optional<geometry::Pinhole>& bent_by);
     void use() const { glUseProgram(program_.get()); }
+    /// If the shader bends: bends by the pinhole's lens from now on, at first by that of `compile`. Call `use` first.
+    void bend_by(const geometry::Pinhole& pinhole) const;
     /// Draws the quadrilateral of Uniform::Corners, in cells if the shader bends; call `use` first.
     void draw_quad() const;
     /// Draws rectangles of a picture of this size: Uniform::Rectangles. Call `use` first, and bind a vertex
@@ -75,6 +77,7 @@ public:
 private:
     gl::GlProgram program_;
     bool bends_ = false;
+    GLint distortion_ = -1, lens_from_clip_ = -1; ///< locations
     std::array<GLint, static_cast<std::size_t>(Uniform::Count)> locations_{};
 };
 

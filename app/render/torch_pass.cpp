@@ -32,8 +32,12 @@ bool is_within(const scene::TorchLight& light, const scene::PlacedLevel& level) 
     const geometry::Box box = level.placed_box();
     return glm::all(glm::greaterThanEqual(torch, box.low)) && glm::all(glm::lessThanEqual(torch, box.high));
 }
-/// A wall seen from within that slants by some 50 degrees still hides its own outer side.
-constexpr double inside_slacks = 6.0;
+
+bool is_within_any_relief(const scene::TorchLight& light, const scene::FramePlan& view) {
+    return std::any_of(view.casters.begin(), view.casters.end(), [&](const scene::Part& part) {
+        return part.level.relief != nullptr && is_within(light, part.level);
+    });
+}
 
 /// The triangles of a part that the torch sees from the front; if it may be within the part, all.
 std::span<const std::uint32_t> cast_triangles(const scene::TorchLight& light, const scene::FramePlan& view,
@@ -103,14 +107,18 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
         if (!light.torch.casts_shadows) {
             continue;
         }
-        if (scene::is_found_on_processor(view)) {
+        const bool on_processor = scene::is_found_on_processor(view);
+        if (!on_processor || shows_own_view(light)) {
+            calls += draw_view(view, target, store, shaders, shows_own_view(light));
+        }
+        if (on_processor) {
             constexpr PixelRectangle whole{
                 .x = 0, .y = 0, .width = scene::torch_picture_px, .height = scene::torch_picture_px};
             cast_view(light, view, meshes ? whole : painted.seen_by(k), target, store);
             picture.shadow = target.nearness.get();
             picture.inverse_z = light.inverse_z_of_nearness;
         } else {
-            calls += draw_view(view, target, store, shaders, shows_own_view(light));
+            calls += find_farthest(target, shaders);
         }
     }
     set_channels(glm::bvec3(true));
@@ -125,9 +133,13 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
     constexpr int px = scene::torch_picture_px;
     shadow_map_.begin(px, px);
     if (view.relief_draw_count > 0) {
-        rasters_.paint_nearness(
-            view, store, part,
-            {.first = shadow_map_.nearness().data(), .width = px, .height = px, .stride = px});
+        const auto as_picture = [](std::span<float> rows) {
+            return relief::PictureSpan<float>{.first = rows.data(), .width = px, .height = px, .stride = px};
+        };
+        rasters_.paint_nearness(view, store, part, as_picture(shadow_map_.nearness()));
+        if (is_within_any_relief(light, view)) {
+            rasters_.paint_nearness(view, store, part, as_picture(shadow_map_.backs()), relief::Facing::Away);
+        }
     }
     const geometry::Pinhole& pinhole = view.projector;
     const glm::dmat3 picture_from_ray(pinhole.fx, 0.0, 0.0, 0.0, pinhole.fy, 0.0, pinhole.cx, pinhole.cy,
@@ -136,15 +148,14 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
         const scene::PlacedLevel& level = view.casters[part].level;
         const std::span<const std::uint32_t> indices = cast_triangles(light, view, part);
         if (!indices.empty()) {
-            shadow_map_.draw(
-                {.picture_from_model =
-                     picture_from_ray * glm::dmat4x3(light.torch_from_prop * level.prop_from_box()),
-                 .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x),
-                 .inside_nearer = is_within(light, level) ? inside_slacks * slack_of(light) : 0.0},
-                level.triangles->positions, indices);
+            shadow_map_.draw({.picture_from_model = picture_from_ray * glm::dmat4x3(light.torch_from_prop *
+                                                                                    level.prop_from_box()),
+                              .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x),
+                              .from_within = is_within(light, level)},
+                             level.triangles->positions, indices);
         }
     }
-    shadow_map_.find_farthest_of_four();
+    shadow_map_.find_farthest_of_four(slack_of(light));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target.nearness.get());
     const std::span<const float> rows = shadow_map_.nearness().subspan(static_cast<std::size_t>(part.y) * px);
@@ -170,7 +181,7 @@ int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, con
     glClear((colours ? GL_COLOR_BUFFER_BIT : 0U) | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     const int calls = faces_.draw(view, store, shaders, whole);
     const int reliefs = view.relief_draw_count > 0 ? rasters_.show_in_depth(view, shaders, whole) : 0;
-    return calls + reliefs + find_farthest(target, shaders);
+    return calls + reliefs;
 }
 
 int TorchPass::find_farthest(const Target& target, const ShaderCache& shaders) const {

@@ -57,10 +57,14 @@ bool is_shaded(vec2 at, float z) {
 }
 #endif
 
+// By which a place that was found by its depth may lie too far away: two steps of 24 bits.
+float place_error = 0.0;
+float error_of(float way_from_eye, float depth_left) { return 2.4e-7 * way_from_eye / (depth_left * depth_left); }
+
 bool is_lit(vec3 p) {
     vec2 at = p.xy / p.z * beam.xy;
     float out_of_shape = beam.w > 0.5 ? dot(at, at) : max(abs(at.x), abs(at.y));
-    return p.z > 0.0 && dot(p, p) <= beam.z * beam.z && out_of_shape <= 1.0 && !is_shaded(at, p.z);
+    return p.z > 0.0 && dot(p, p) <= beam.z * beam.z && out_of_shape <= 1.0 && !is_shaded(at, p.z - place_error);
 }
 
 #if CONTENT_PARTS & 4
@@ -79,7 +83,8 @@ float ruler(vec2 at_mm, float pixel_mm) {
     return max(marks, covered(abs(at_mm.y), 0.3, pixel_mm));
 }
 
-float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {
+// `width_mm`: of the content at this depth.
+float effect(int source, vec2 from_middle, vec3 size, float pixel, float width_mm) {
     if (source == 4) {
         return covered(abs(length(from_middle) - 0.5 * size.x), size.y, pixel);
     }
@@ -87,7 +92,7 @@ float effect(int source, vec2 from_middle, vec3 size, float pixel, vec3 p) {
         return max(covered(from_line(from_middle.x, size.x), size.y, pixel),
                    covered(from_line(from_middle.y, size.x), size.y, pixel));
     }
-    return source == 6 ? ruler(1000.0 * p.xy, 2000.0 * p.z * pixel / beam.x) : 1.0;
+    return source == 6 ? ruler(width_mm * from_middle, width_mm * pixel) : 1.0;
 }
 #endif
 
@@ -112,13 +117,14 @@ vec4 stage(int k, vec2 place, float pixel, vec3 p, vec4 layer) {
 #endif
 #if CONTENT_PARTS & 4
     if (source >= 4 && source <= 6) {
-        colour.a = effect(source, from_middle, stage_size[k], pixel, p);
+        colour.a = effect(source, from_middle, stage_size[k], pixel, 2000.0 * p.z / beam.x);
     }
 #endif
 #if CONTENT_PARTS & 8
     if (source == 7) {
         colour.a = clamp((0.5 * stage_size[k].x - length(from_middle)) / pixel + 0.5, 0.0, 1.0);
-        colour.rgb = decoded(textureLod(seen_by_torch, 0.5 + (place - 0.5) / stage_size[k].z, 0.0).rgb);
+        vec2 from_lens = inverse(mat2(stage_from_content[k])) * (at - 0.5); // of the lens's own middle
+        colour.rgb = decoded(textureLod(seen_by_torch, place - from_lens * (1.0 - 1.0 / stage_size[k].z), 0.0).rgb);
     }
 #endif
     return colour * stage_colour[k];
@@ -279,6 +285,7 @@ void main() {
             float depth = texelFetch(depths, first + ivec2(x, y), 0).r;
             depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
             vec3 p = eye + (middle + right * (to_first.x + float(x)) + down * (to_first.y + float(y))) / depth_left;
+            place_error = error_of(length(middle), depth_left);
             if (depth < 1.0 && is_lit(p)) {
                 sum += p;
                 lit += 1.0;
@@ -305,6 +312,7 @@ void main() {
     float depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
     vec3 to_place = from_eye(gl_FragCoord.xy);
     vec3 p = eye + to_place / depth_left;
+    place_error = error_of(length(to_place), depth_left);
     float pixel_m = distance(from_eye(gl_FragCoord.xy + vec2(1.0, 0.0)), to_place) / abs(depth_left);
     light(p, vec4(0.0), depth < 1.0 && is_lit(p) ? 1.0 : 0.0, pixel_m);
 }

@@ -149,6 +149,7 @@ std::pair<glm::vec2, glm::vec2> plan_torch_view(std::span<const Part> parts, con
     for (const Part& part : parts) {
         if (casts(part)) {
             plan.casters.push_back({part.level, std::nullopt});
+            plan.casters.back().level.light = glm::vec3(1.0F); // the lit surface has its light
         }
     }
     place_before(prop_from_torch, torch.beam, distance, plan.surface);
@@ -197,11 +198,9 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
 }
 
 bool is_found_on_processor(const FramePlan& view) {
-    return !glm::any(view.picture.channels) &&
-           std::none_of(view.draws.begin(), view.draws.end(), [](const Draw& draw) {
-               return draw.shader.pass == ShaderKey::Pass::Surface &&
-                      (draw.shader.cut_out || draw.shader.blocks);
-           });
+    return std::none_of(view.draws.begin(), view.draws.end(), [](const Draw& draw) {
+        return draw.shader.pass == ShaderKey::Pass::Surface && (draw.shader.cut_out || draw.shader.blocks);
+    });
 }
 
 void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,

@@ -17,8 +17,8 @@ namespace frustumscreen::scene {
 /// Makes room in a plan for torches that light `parts` parts of `indices` indices together.
 void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, std::size_t parts);
 
-/// True if a torch's own picture is needed for its depth alone, and all that it shows is found on the processor: polygons without
-/// holes, and reliefs that the GPU does not draw. `view`: one of FramePlan::torch_views.
+/// True if the depth of all that a torch's own picture shows is found on the processor: polygons without holes, and reliefs that
+/// the GPU does not draw. `view`: one of FramePlan::torch_views.
 [[nodiscard]] bool is_found_on_processor(const FramePlan& view);
 
 /// Adds the view's torches to a plan of the same parts. `box`: around all parts, prop frame.

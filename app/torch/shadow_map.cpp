@@ -15,6 +15,7 @@ constexpr int parts_of_pixel = 256;
 /// A corner farther out is cut: 64-bit products of differences of corners are exact by far.
 constexpr double guard_px = 16384.0;
 constexpr double min_z_m = 1e-4;
+constexpr float dark_nearness = 1e30F;          ///< nearer than anything
 constexpr std::uint16_t needs_cutting = 0xFFFF; ///< a column
 
 /// The first pixel of 0 to `count` whose middle is not before `place`.
@@ -60,7 +61,9 @@ void narrow(std::int64_t at, std::int64_t per_x, int& first, int& last) {
 void ShadowMap::begin(int width, int height) {
     width_ = width;
     height_ = height;
+    has_backs_ = false;
     nearness_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0F);
+    backs_.reserve(nearness_.size());
 }
 
 ShadowMap::Corner ShadowMap::corner_at(const glm::dvec3& place, double metres) const {
@@ -93,8 +96,9 @@ void ShadowMap::draw(const View& view, std::span<const glm::vec3> positions,
     place_corners(view, positions);
     // A front turns anticlockwise, unless the view mirrors.
     const bool mirrored = glm::determinant(glm::dmat3(view.picture_from_model)) < 0.0;
-    clockwise_nearer_ = mirrored ? 0.0 : view.inside_nearer;
-    others_nearer_ = mirrored ? view.inside_nearer : 0.0;
+    float* const turned_away = view.from_within ? backs().data() : nearness_.data();
+    clockwise_ = mirrored ? nearness_.data() : turned_away;
+    others_ = mirrored ? turned_away : nearness_.data();
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
         const Corner& a = corners_[indices[k]];
         const Corner& b = corners_[indices[k + 1]];
@@ -111,12 +115,28 @@ void ShadowMap::draw(const View& view, std::span<const glm::vec3> positions,
     }
 }
 
-void ShadowMap::find_farthest_of_four() {
+std::span<float> ShadowMap::backs() {
+    if (!has_backs_) {
+        backs_.assign(nearness_.size(), 0.0F);
+        has_backs_ = true;
+    }
+    return backs_;
+}
+
+void ShadowMap::find_farthest_of_four(double slack) {
+    const auto nearer = static_cast<float>(1.0 + slack);
+    for (std::size_t k = 0; has_backs_ && k < nearness_.size(); ++k) {
+        nearness_[k] = backs_[k] > nearer * nearness_[k] ? dark_nearness : nearness_[k];
+    }
+    constexpr float share_of_range = 0.5F;
+    const auto max_share = static_cast<float>(slack);
     for (int y = 0; y + 1 < height_; ++y) {
         float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_;
         const float* const below = row + width_;
         for (int x = 0; x + 1 < width_; ++x) {
-            row[x] = std::min(std::min(row[x], row[x + 1]), std::min(below[x], below[x + 1]));
+            const float farthest = std::min(std::min(row[x], row[x + 1]), std::min(below[x], below[x + 1]));
+            const float nearest = std::max(std::max(row[x], row[x + 1]), std::max(below[x], below[x + 1]));
+            row[x] = farthest - std::min(share_of_range * (nearest - farthest), max_share * farthest);
         }
     }
 }
@@ -145,10 +165,9 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c,
     Edge bc(b.x, b.y, c.x, c.y, x0, y0);
     Edge ca(c.x, c.y, a.x, a.y, x0, y0);
     // The plane through the corners; rounding must not take a steep triangle's pixel beyond them.
-    const double nearer = 1.0 + (clockwise ? clockwise_nearer_ : others_nearer_);
-    const double near_a = nearer * static_cast<double>(a.nearness);
-    const double rise_b = nearer * static_cast<double>(b.nearness) - near_a;
-    const double rise_c = nearer * static_cast<double>(c.nearness) - near_a;
+    const auto near_a = static_cast<double>(a.nearness);
+    const double rise_b = static_cast<double>(b.nearness) - near_a;
+    const double rise_c = static_cast<double>(c.nearness) - near_a;
     const auto low = static_cast<float>(near_a + std::min({0.0, rise_b, rise_c}));
     const auto high = static_cast<float>(near_a + std::max({0.0, rise_b, rise_c}));
     const double per_area = parts_of_pixel / static_cast<double>(area);
@@ -156,7 +175,7 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c,
     const double per_y = per_area * (rise_c * static_cast<double>(ab_x) - rise_b * static_cast<double>(ac_x));
     double at = near_a + (per_x * static_cast<double>(x0 - a.x) + per_y * static_cast<double>(y0 - a.y)) /
                              parts_of_pixel;
-    float* row = nearness_.data() + static_cast<std::ptrdiff_t>(top) * width_ + left;
+    float* row = (clockwise ? clockwise_ : others_) + static_cast<std::ptrdiff_t>(top) * width_ + left;
     for (int y = top; y <= bottom; ++y, row += width_, at += per_y) {
         int first = 0;
         int last = right - left;

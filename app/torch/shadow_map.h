@@ -29,16 +29,19 @@ public:
         /// (x z, y z, z) of a place of the model: x and y in the picture, z in metres.
         glm::dmat4x3 picture_from_model{1.0};
         double metres = 1.0; ///< the nearness is this over z
-        /// Triangles that are turned away are drawn nearer by this share: seen from within an object, its surface lies in its own
-        /// shadow. 0 where nothing is seen from within.
-        double inside_nearer = 0.0;
+        /// The torch may be inside the object: triangles that are turned away go into `backs`.
+        bool from_within = false;
     };
     /// `indices`: three for each triangle, which has two sides.
     void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
-    /// In place of each pixel's nearness the least of it and of the next ones to the right and below.
-    void find_farthest_of_four();
+    /// Ends the map. A pixel whose first surface is turned away, by more than the share `slack` before others, is dark from the torch
+    /// on: its light is inside an object there. Then in place of each pixel's nearness the least of it and of the next ones to the
+    /// right and below; where those four differ, as on a steep surface, a half of that less, a share of `slack` at most.
+    void find_farthest_of_four(double slack);
 
+    /// Of surfaces that are turned away; as `nearness`. The first call since `begin` clears it.
+    [[nodiscard]] std::span<float> backs();
     /// Row by row. Others may draw into it too, as far as they keep the nearer.
     [[nodiscard]] std::span<float> nearness() { return nearness_; }
     [[nodiscard]] std::span<const float> nearness() const { return nearness_; }
@@ -60,9 +63,10 @@ private:
     void draw_cut(const View& view, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
     int width_ = 0, height_ = 0;
-    std::vector<float> nearness_;
+    std::vector<float> nearness_, backs_;
+    bool has_backs_ = false;
     std::vector<Corner> corners_;
-    double clockwise_nearer_ = 0.0, others_nearer_ = 0.0; ///< shares, of the view that is drawn
+    float *clockwise_ = nullptr, *others_ = nullptr; ///< where the view's triangles go: one of the two above
 };
 
 } // namespace frustumscreen::torch

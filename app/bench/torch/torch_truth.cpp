@@ -12,7 +12,7 @@ namespace frustumscreen::bench {
 
 namespace {
 
-constexpr double slack_m = 2e-5;
+constexpr double rounding_m = 1e-6;
 constexpr double same_point_m = 1e-4;
 constexpr double edge_on = 0.0175; ///< cosine: one degree
 
@@ -65,12 +65,12 @@ private:
         const glm::dvec2 at = glm::abs(glm::dvec2(point)) / (point.z * half_extent_);
         return beam_.shape == torch::Shape::Round ? glm::length(at) < wider : std::max(at.x, at.y) < wider;
     }
-    /// The point and eight places around it, one pixel of the torch's own picture away; torch's frame.
+    /// The point, eight places around it, half a pixel of the torch's own picture away, and eight a whole pixel away; torch's frame.
     [[nodiscard]] glm::dvec3 beside(const glm::dvec3& point, int ray) const {
         const double angle = 0.25 * std::numbers::pi * ray;
-        const glm::dvec2 pixel = 2.0 * half_extent_ * point.z / static_cast<double>(scene::torch_picture_px);
-        return ray == 0 ? point
-                        : point + glm::dvec3(pixel * glm::dvec2(std::cos(angle), std::sin(angle)), 0.0);
+        const double away = ray == 0 ? 0.0 : ray <= 8 ? 1.0 : 2.0;
+        const glm::dvec2 half_pixel = half_extent_ * point.z / static_cast<double>(scene::torch_picture_px);
+        return point + glm::dvec3(away * half_pixel * glm::dvec2(std::cos(angle), std::sin(angle)), 0.0);
     }
     enum class Light : std::uint8_t { Full, Unsure, None };
     /// The light that the ray through `at`, torch's frame, brings to the plane through a point.
@@ -78,18 +78,24 @@ private:
                                  const glm::dvec3& at) const {
         const glm::dvec3 direction = prop_from_torch_.direction(at);
         const DrawnSurface::Hit met = surface_.first_hit(prop_from_torch_.translation, direction);
-        if (!met.hit || glm::dot(normal, met.point_m - point_m) < slack_m) {
+        if (!met.hit || glm::dot(normal, met.point_m - point_m) < rounding_m) {
             return Light::Full;
         }
         const double plane =
             glm::dot(normal, point_m - prop_from_torch_.translation) / glm::dot(normal, direction);
+        if (!(plane > 0.0)) { // the ray goes away from the plane
+            return Light::Unsure;
+        }
         const double z = torch_from_prop_.point(met.point_m).z;
         const double pixel =
             2.0 * std::max(half_extent_.x, half_extent_.y) / static_cast<double>(scene::torch_picture_px);
-        return plane > 0.0 && z < plane * at.z * (1.0 - pixel) ? Light::None : Light::Unsure;
+        if (z >= plane * at.z * (1.0 - 0.5 * pixel)) {
+            return Light::Full;
+        }
+        return z < plane * at.z * (1.0 - pixel) ? Light::None : Light::Unsure;
     }
 
-    static constexpr int rays = 9;
+    static constexpr int rays = 17;
     const DrawnSurface& surface_;
     glm::dvec3 eye_m_;
     geometry::RigidTransform prop_from_torch_, torch_from_prop_;
