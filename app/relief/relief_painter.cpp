@@ -212,11 +212,13 @@ std::span<const PixelRectangle> ReliefPainter::paint(std::span<const SeenRelief>
 void ReliefPainter::paint_nearness(std::span<const SeenRelief> reliefs, const TileMask& asked,
                                    const PictureSpan<float>& nearness) {
     const PixelRectangle part = asked.bounds();
-    if (reliefs.empty() || part.empty() || reliefs[0].view->faces.empty()) {
+    const auto seen = std::find_if(reliefs.begin(), reliefs.end(),
+                                   [](const SeenRelief& each) { return !each.view->faces.empty(); });
+    if (part.empty() || seen == reliefs.end()) {
         return;
     }
     list(reliefs);
-    const glm::vec3 slant(reliefs[0].view->faces[0].slant);
+    const glm::vec3 slant(seen->view->faces[0].slant);
     workers_.share(bands_of(part), [&](int k, int) {
         const int band = part.y / rows_of_band + k;
         for (std::size_t of : order_) {

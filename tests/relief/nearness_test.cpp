@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace frustumscreen::relief {
@@ -124,6 +125,22 @@ TEST(Nearness, InAskedTilesIsThatOfTheWholePicture) {
     }
     EXPECT_GT(met, 500);
     EXPECT_GT(untouched, met);
+}
+
+TEST(Nearness, OfSeveralReliefsDoesNotDependOnTheirOrderNorOnUnseenOnes) {
+    const Torch torch({0.1, -0.15, 0.2});
+    RasterView unseen = torch.view;
+    unseen.faces.clear();
+    unseen.lit = {};
+    const SeenRelief own{.relief = &torch.relief, .view = &torch.view};
+    const SeenRelief beside{.relief = &torch.relief, .view = &unseen};
+    ReliefPainter painter(2);
+    for (const std::array<SeenRelief, 2>& both :
+         {std::array{beside, own}, std::array{own, beside}, std::array{own, own}}) {
+        std::vector<float> nearness(std::size_t{torch_px} * torch_px, 0.0F);
+        painter.paint_nearness(both, whole(), {nearness.data(), torch_px, torch_px, torch_px});
+        EXPECT_EQ(nearness, torch.paint(whole()));
+    }
 }
 
 TEST(Nearness, IsTheSameWithEachSetOfInstructions) {
