@@ -136,6 +136,8 @@ PresentedTorches TorchLights::step(MonotonicTime now, const Input& input) {
         }
     }
     PresentedTorches presented;
+    presented.held = held_;
+    presented.aim = aim_;
     presented.house_light = 1.0 - most * (1.0 - place_.house_light);
     for (std::size_t k = 0; k < torches_.size(); ++k) {
         const PresentedLight light = light_of(now, input, k);

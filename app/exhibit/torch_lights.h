@@ -48,7 +48,9 @@ inline constexpr std::array<glm::vec3, tracking::max_tracked_torches> torch_colo
 
 class PresentedTorches {
 public:
-    double house_light = 1.0; ///< factor of the artifact's light
+    double house_light = 1.0;        ///< factor of the artifact's light
+    std::optional<std::size_t> held; ///< the torch that was taken last: 0 the tracker's, 1 a camera's
+    std::optional<TorchAim> aim;     ///< of the held one
     [[nodiscard]] std::span<const PresentedLight> lights() const { return std::span(lights_).first(count_); }
     void add(const PresentedLight& light) { lights_.at(count_++) = light; }
 

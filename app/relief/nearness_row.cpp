@@ -40,6 +40,9 @@ FRUSTUMSCREEN_INLINE Floats at_pixels(const glm::vec3& linear, const PixelLanes&
 
 /// The slant of the face that each pixel lights: the one whose nearest edge is farthest away.
 FRUSTUMSCREEN_INLINE Floats slant_at(const NearnessView& view, const PixelLanes& at) {
+    if (view.faces.size() == 1) {
+        return at_pixels(view.faces[0].slant, at);
+    }
     Floats slant = all(1.0F);
     Floats deepest = all(-std::numeric_limits<float>::infinity());
     for (const NearnessFace& face : view.faces) {
@@ -60,6 +63,9 @@ FRUSTUMSCREEN_INLINE Floats slant_at(const NearnessView& view, const PixelLanes&
 FRUSTUMSCREEN_INLINE Floats nearness_at(const RasterSamples& samples, const NearnessView& view, int x, int y,
                                         std::size_t k) {
     const Floats met = load(&samples.nearness[samples.at(x, y, k)]);
+    if (!any(met > 0.0F)) {
+        return Floats{};
+    }
     const glm::vec2& place = samples.places()[k];
     PixelLanes at{__builtin_convertvector(lane_numbers + x, Floats) + place.x,
                   all(static_cast<float>(y) + place.y)};

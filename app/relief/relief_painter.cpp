@@ -1,5 +1,7 @@
 #include "app/relief/relief_painter.h"
 
+#include "app/relief/rasterize_nearness.h"
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -42,14 +44,6 @@ const RasterFace& face_at(const RasterView& view, const glm::dvec3& pixel) {
     };
     return *std::max_element(view.faces.begin(), view.faces.end(),
                              [&](const RasterFace& a, const RasterFace& b) { return depth(a) < depth(b); });
-}
-
-PixelRectangle around(std::span<const PixelRectangle> parts) {
-    PixelRectangle all;
-    for (const PixelRectangle& part : parts) {
-        all = united(all, part);
-    }
-    return all;
 }
 
 float nearest_of(const BlockItems& items) {
@@ -154,9 +148,6 @@ void ReliefPainter::resolve(const RasterSamples& samples, const PixelRectangle& 
                         Outline::Coverage);
         }
     }
-    if (picture.codes.first == nullptr) {
-        return;
-    }
     for (int y = part.y; y < part.y + part.height; ++y) {
         std::fill_n(&picture.codes.at(part.x, y), part.width, glm::u8vec4(0));
         const RasterSamples::Extent& extent = samples.extent(y);
@@ -183,9 +174,6 @@ std::span<const PixelRectangle> ReliefPainter::paint(std::span<const SeenRelief>
     PixelRectangle lit;
     for (const SeenRelief& seen : reliefs) {
         lit = united(lit, seen.view->lit);
-    }
-    if (picture.first == nullptr) {
-        lit = intersected(lit, around(depth.overlaid));
     }
     if (lit.empty()) {
         return {};
@@ -219,6 +207,26 @@ std::span<const PixelRectangle> ReliefPainter::paint(std::span<const SeenRelief>
     });
     std::erase_if(painted_, [](const PixelRectangle& part) { return part.empty(); });
     return painted_;
+}
+
+void ReliefPainter::paint_nearness(std::span<const SeenRelief> reliefs, const TileMask& asked,
+                                   const PictureSpan<float>& nearness) {
+    const PixelRectangle part = asked.bounds();
+    const auto seen = std::find_if(reliefs.begin(), reliefs.end(),
+                                   [](const SeenRelief& each) { return !each.view->faces.empty(); });
+    if (part.empty() || seen == reliefs.end()) {
+        return;
+    }
+    list(reliefs);
+    const glm::vec3 slant(seen->view->faces[0].slant);
+    workers_.share(bands_of(part), [&](int k, int) {
+        const int band = part.y / rows_of_band + k;
+        for (std::size_t of : order_) {
+            const Listed& listed = listed_[of];
+            rasterize_nearness(nearness, asked, band, *listed.seen.relief, *listed.seen.view, listed.items);
+        }
+        divide_by_slant(nearness, asked, band, slant);
+    });
 }
 
 void ReliefPainter::hit_points(const SeenRelief& seen, const PictureSpan<glm::vec3>& points) {

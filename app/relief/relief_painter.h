@@ -16,9 +16,11 @@
 #include "app/relief/block_pages.h"
 #include "app/relief/frame_workers.h"
 #include "app/relief/nearness_row.h"
+#include "app/relief/picture_span.h"
 #include "app/relief/rasterize_blocks.h"
 #include "app/relief/resolve_row.h"
 #include "app/relief/sample_light.h"
+#include "app/relief/tile_mask.h"
 
 #include <cstddef>
 #include <optional>
@@ -26,15 +28,6 @@
 #include <vector>
 
 namespace frustumscreen::relief {
-
-/// A view of texels in memory that it does not own: row 0 at the top, `stride` texels from row to row.
-template <typename Texel> struct PictureSpan {
-    Texel* first = nullptr;
-    int width = 0, height = 0;
-    std::ptrdiff_t stride = 0;
-
-    [[nodiscard]] Texel& at(int x, int y) const { return first[y * stride + x]; }
-};
 
 /// Changes a row's codes right after they are computed.
 class RowLight {
@@ -72,7 +65,7 @@ public:
     explicit ReliefPainter(int threads);
 
     /// Paints the reliefs as seen in their views, which are of one frame, with `samples` (1, 2, 4, 8 or 16) a pixel, in
-    /// `light` or unlit; a null picture gets no colours, and only the depth that is laid over is found. Writes every pixel of the returned rectangles, which lie one below the other, and none outside;
+    /// `light` or unlit. Writes every pixel of the returned rectangles, which lie one below the other, and none outside;
     /// of `depth`, the `depth_part` of each. They are valid until the next call.
     std::span<const PixelRectangle> paint(std::span<const SeenRelief> reliefs, int samples,
                                           const PictureSpan<glm::u8vec4>& picture,
@@ -85,6 +78,11 @@ public:
         const SeenRelief seen{.relief = &relief, .view = &view};
         return paint(std::span(&seen, 1), samples, picture, light);
     }
+
+    /// The nearness alone (nearness_row.h) at the centres of the pixels in the asked tiles, which must be 0 before; in other tiles it
+    /// is unspecified. For a plain pinhole and views of one face, the same one, around the whole picture.
+    void paint_nearness(std::span<const SeenRelief> reliefs, const TileMask& asked,
+                        const PictureSpan<float>& nearness);
 
     /// The position of each pixel's first hit, box frame; NaN without a hit. Writes the whole picture.
     void hit_points(const SeenRelief& seen, const PictureSpan<glm::vec3>& points);

@@ -1,17 +1,26 @@
-/// The tiles of a rasterized relief that a torch may light: what a tile shows lies between its least and its greatest nearness.
+/// The parts of a rasterized relief that lie in a torch's beam, and which of its own picture's tiles tell their shadows.
 ///
-/// Threads  pure; any. Allocates nothing.
+/// Threads  pure; any. Allocates nothing once `rectangles` has room.
+/// SIMD     as relief/rasterize_blocks.h.
 #pragma once
 
-#include "app/relief/relief_painter.h"
+#include "app/relief/instructions.h"
+#include "app/relief/picture_span.h"
+#include "app/relief/tile_mask.h"
 #include "app/scene/frame_plan.h"
+
+#include <vector>
 
 namespace frustumscreen::render {
 
-/// Lights those tiles of a part of the picture. `nearness`: of the whole picture (relief/nearness_row.h). Returns the rectangle around
-/// their places in the torch's own picture: all of it whose depth is asked for.
-PixelRectangle light_tiles(const scene::FramePlan& plan, const scene::TorchFace& face,
-                           const PixelRectangle& part, const relief::PictureSpan<const float>& nearness,
-                           scene::LitTiles& tiles);
+struct LitParts {
+    std::vector<PixelRectangle> rectangles; ///< disjoint; around all pixels in the beam, in groups of 8 x 8
+    relief::TileMask asked; ///< of the torch's own picture: tiles with the depths that they ask for
+};
+
+/// Adds those of a part of the picture. `nearness`: of the whole picture (relief/nearness_row.h), at least 8 pixels wide.
+void add_lit(const scene::FramePlan& plan, const scene::TorchFace& face, const PixelRectangle& part,
+             const relief::PictureSpan<const float>& nearness, LitParts& lit,
+             relief::Instructions instructions = relief::best_instructions());
 
 } // namespace frustumscreen::render

@@ -2,7 +2,6 @@
 
 #include "app/render/face_pass.h"
 #include "app/render/gl_memory.h"
-#include "app/render/nearness_tiles.h"
 #include "firmware_host/base/usable_cores.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -281,8 +280,8 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
         find_meeting(plan);
     }
     find_lit(plan, store);
-    const bool layered = std::any_of(seen_.begin(), seen_.end(),
-                                     [](const relief::SeenRelief& seen) { return seen.layer != nullptr; });
+    layered_ = std::any_of(seen_.begin(), seen_.end(),
+                           [](const relief::SeenRelief& seen) { return seen.layer != nullptr; });
     int samples = 1;
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
         samples = plan.relief_draws[k].on_gpu ? samples : std::max(samples, plan.relief_draws[k].samples);
@@ -293,7 +292,7 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
                                                   .height = nearness_.height,
                                                   .stride = nearness_.width},
                                      .overlaid = lit_,
-                                     .layer = {.first = layered ? layer_.texels.data() : nullptr,
+                                     .layer = {.first = layered_ ? layer_.texels.data() : nullptr,
                                                .width = layer_.width,
                                                .height = layer_.height,
                                                .stride = layer_.width}};
@@ -316,11 +315,7 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
         glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
         upload(depths(), in_depth_, plan.picture.viewport);
     }
-    if (!overlaid_.empty()) {
-        glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
-        upload(depths(), overlaid_, plan.picture.viewport);
-    }
-    if (!overlaid_.empty() && layered) {
+    if (!in_depth_.empty() && layered_) {
         glBindTexture(GL_TEXTURE_2D, layer_texels_.get());
         upload(layers_of_torches(), overlaid_, plan.picture.viewport);
     }
@@ -464,7 +459,7 @@ int RasterPass::light(const Lit& lit) const {
         const scene::TorchFace& face = lit.plan.torch_faces[k];
         const scene::TorchLight& light = lit.plan.torches[face.torch];
         const Shader* const shader = find_torch(lit.shaders, scene::raster_shader(), light);
-        if (shader == nullptr || lit_tiles_[k].rectangles().empty()) {
+        if (shader == nullptr || lit_parts_[k].rectangles.empty()) {
             continue;
         }
         shader->use();
@@ -473,10 +468,9 @@ int RasterPass::light(const Lit& lit) const {
         set_nearness(*shader, lit.plan, light, face.face,
                      {lit.raster.fragments, lit.raster.corner + viewport});
         begin_blending(light);
-        for (const std::vector<PixelRectangle>* const parts : {&copied_, &drawn_}) {
-            for (const PixelRectangle& part : *parts) {
-                calls += light_part(lit, face, lit_tiles_[k], part, *shader);
-            }
+        for (const PixelRectangle& part : lit_parts_[k].rectangles) {
+            set_scissor(part, lit.raster);
+            calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, *shader);
         }
     }
     end_blending();
@@ -485,51 +479,51 @@ int RasterPass::light(const Lit& lit) const {
     return calls;
 }
 
-void RasterPass::find_lit_tiles(const scene::FramePlan& plan) {
-    lit_tiles_.resize(std::max(lit_tiles_.size(), plan.torch_faces.size()));
-    seen_by_.fill({});
+void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
+    lit_parts_.resize(std::max(lit_parts_.size(), plan.torch_faces.size()));
+    for (relief::TileMask& asked : asked_) {
+        asked.clear();
+    }
     const relief::PictureSpan<const float> nearness{.first = nearness_.texels.data(),
                                                     .width = nearness_.width,
                                                     .height = nearness_.height,
                                                     .stride = nearness_.width};
     for (std::size_t k = 0; k < plan.torch_faces.size(); ++k) {
         const scene::TorchFace& face = plan.torch_faces[k];
-        scene::LitTiles& tiles = lit_tiles_[k];
-        PixelRectangle& seen = seen_by_.at(face.torch);
-        tiles.begin(plan.projector.width, plan.projector.height);
+        LitParts& lit = lit_parts_[k];
+        lit.rectangles.clear();
+        lit.asked.clear();
         for (const std::vector<PixelRectangle>* const parts : {&copied_, &drawn_}) {
             for (const PixelRectangle& part : *parts) {
                 for (const PixelRectangle& rectangle : face.lit.rectangles()) {
-                    const PixelRectangle both = intersected(part, rectangle);
-                    seen = united(seen, light_tiles(plan, face, both, nearness, tiles));
+                    if (const PixelRectangle both = intersected(part, rectangle); !both.empty()) {
+                        add_lit(plan, face, both, nearness, lit);
+                    }
                 }
             }
         }
-        tiles.finish();
-    }
-}
-
-int RasterPass::light_part(const Lit& lit, const scene::TorchFace& face, const scene::LitTiles& tiles,
-                           const PixelRectangle& part, const Shader& shader) {
-    int calls = 0;
-    for (const PixelRectangle& tile : tiles.rectangles()) {
-        if (const PixelRectangle both = intersected(part, tile); !both.empty()) {
-            set_scissor(both, lit.raster);
-            calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, shader);
+        asked_.at(face.torch).ask(lit.asked);
+        if (lit.rectangles.empty()) {
+            continue;
+        }
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, nearness_texels_.get());
+        upload(depths(), lit.rectangles, plan.picture.viewport);
+        if (layered_) {
+            glBindTexture(GL_TEXTURE_2D, layer_texels_.get());
+            upload(layers_of_torches(), lit.rectangles, plan.picture.viewport);
         }
     }
-    return calls;
 }
 
 void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store,
-                                const PixelRectangle& part, const relief::PictureSpan<float>& nearness,
+                                const relief::TileMask& asked, const relief::PictureSpan<float>& nearness,
                                 relief::Facing facing) {
     list_reliefs(plan, store);
     for (relief::SeenRelief& seen : seen_) {
         seen.facing = facing;
     }
-    painter_->paint(seen_, 1, {}, nullptr,
-                    {.parts = {}, .nearness = nearness, .overlaid = std::span(&part, 1)});
+    painter_->paint_nearness(seen_, asked, nearness);
 }
 
 std::uint64_t RasterPass::bytes() const {

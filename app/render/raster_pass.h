@@ -12,6 +12,7 @@
 #include "app/image/image.h"
 #include "app/relief/relief_painter.h"
 #include "app/render/gpu_store.h"
+#include "app/render/nearness_tiles.h"
 #include "app/render/point_painter.h"
 #include "app/render/raster.h"
 #include "app/render/shader_cache.h"
@@ -48,18 +49,18 @@ public:
     /// Shows the other parts in the bound framebuffer, whose colour must be a texture; returns the number of draw calls.
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
-    /// After `paint`: which tiles of what `show` shows the plan's torches light.
-    void find_lit_tiles(const scene::FramePlan& plan);
-    /// Around the places of a torch's tiles in its own picture.
-    [[nodiscard]] const PixelRectangle& seen_by(std::size_t torch) const { return seen_by_[torch]; }
+    /// After `paint`: which parts of what `show` shows the plan's torches light. Uploads what their light takes.
+    void find_lit_parts(const scene::FramePlan& plan);
+    /// The tiles of a torch's own picture that these parts ask for.
+    [[nodiscard]] const relief::TileMask& asked_of(std::size_t torch) const { return asked_[torch]; }
 
     /// The plan's torches on what `show_in_depth` has drawn, as far as they show layers, and on what `show` has; each returns
     /// the number of draw calls.
     int light_layers_in_depth(const Lit& lit);
     int light(const Lit& lit) const;
 
-    /// In place of `paint`: the nearness alone, with one sample a pixel, into a part of memory; other pixels stay as they are.
-    void paint_nearness(const scene::FramePlan& plan, const GpuStore& store, const PixelRectangle& part,
+    /// In place of `paint`: the nearness alone, into memory (relief::ReliefPainter::paint_nearness).
+    void paint_nearness(const scene::FramePlan& plan, const GpuStore& store, const relief::TileMask& asked,
                         const relief::PictureSpan<float>& nearness,
                         relief::Facing facing = relief::Facing::Eye);
 
@@ -85,8 +86,6 @@ private:
     void find_meeting(const scene::FramePlan& plan);
     void find_lit(const scene::FramePlan& plan, const GpuStore& store);
     void begin_lighting() const;
-    static int light_part(const Lit& lit, const scene::TorchFace& face, const scene::LitTiles& tiles,
-                          const PixelRectangle& part, const Shader& shader);
     /// A torch on a draw, in those of `rectangles` that it may light.
     int light_rectangles(const scene::FramePlan& plan, const scene::TorchDraw& lit, const Shader& shader,
                          const Raster& raster, std::span<const PixelRectangle> rectangles);
@@ -104,9 +103,10 @@ private:
     std::vector<PixelRectangle> lit_;        ///< by torches
     std::vector<PixelRectangle> overlaid_;   ///< what was painted of it
     std::vector<PixelRectangle> rectangles_; ///< of one draw
-    std::vector<scene::LitTiles> lit_tiles_; ///< one for each of FramePlan::torch_faces
-    std::array<PixelRectangle, torch::max_torches> seen_by_{};
-    image::Image8 layer_; ///< what a torch shows in place of the reliefs' colours; empty: nothing yet
+    std::vector<LitParts> lit_parts_;        ///< the first ones are of FramePlan::torch_faces
+    std::array<relief::TileMask, torch::max_torches> asked_{};
+    bool layered_ = false; ///< a torch shows other colours of what was painted
+    image::Image8 layer_;  ///< what a torch shows in place of the reliefs' colours; empty: nothing yet
     gl::GlTexture layer_texels_;
     std::vector<PixelRectangle> meeting_; ///< where the GPU draws something at other depths
     std::vector<PixelRectangle> copied_, drawn_, in_depth_;

@@ -197,14 +197,15 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
             ? sample_grid_->raster(plan.lit.picture(), plan.lit.bounds(), plan.prop_bounds, samples)
             : Raster{};
     const bool smooth = raster.fragments != glm::ivec2(1);
-    const bool meshes = repaint.prop && !smooth && FacePass::draws(plan);
+    const bool surfaces = FacePass::draws(plan); // of the GPU, and what it rasterizes among them
+    const bool meshes = repaint.prop && !smooth && surfaces;
     const glm::ivec2 viewport(plan.picture.viewport.x, plan.picture.viewport.y);
     const Raster direct{.fragments = {1, 1}, .corner = -viewport};
     std::span<const TorchPicture> torches;
     if (repaint.prop) {
         raster_pass_.paint(plan, store_);
         if (torches_) {
-            raster_pass_.find_lit_tiles(plan);
+            raster_pass_.find_lit_parts(plan);
             result.draw_calls += torches_->see(plan, store_, shaders_, raster_pass_);
             torches = torches_->pictures();
         }
@@ -212,7 +213,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
-        if (!torches.empty()) { // they ask each pixel of their bounds for its depth
+        if (!torches.empty() && surfaces) { // they ask each pixel of their bounds for its depth
             sample_grid_->clear_depth(lit_by_torches(plan), raster);
         }
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
@@ -240,7 +241,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
         glEnable(GL_FRAMEBUFFER_SRGB_EXT);
         sample_grid_->average(plan.lit, raster, viewport, shaders_);
         glDisable(GL_FRAMEBUFFER_SRGB_EXT);
-        if (!torches.empty()) {
+        if (!torches.empty() && surfaces) {
             result.draw_calls += torches_->light_samples({plan, store_, shaders_, direct, torches}, raster,
                                                          sample_grid_->depths());
         }

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace frustumscreen::render {
@@ -53,6 +54,24 @@ std::span<const std::uint32_t> cast_triangles(const scene::TorchLight& light, co
                                    [part](const scene::Draw& each) { return each.part == part; });
     return draw != view.draws.end() ? std::span(view.indices).subspan(draw->range.first, draw->range.count)
                                     : std::span<const std::uint32_t>();
+}
+
+/// The tiles of a beam's picture that its light may meet: of a round one those around its circle and within.
+relief::TileMask tiles_in(const torch::Beam& beam) {
+    constexpr int tile = relief::TileMask::tile_px;
+    constexpr int px = scene::torch_picture_px;
+    relief::TileMask tiles;
+    for (int y = 0; y < px; y += tile) {
+        const double middle = 0.5 * px;
+        const double away = std::max({y - middle, middle - (y + tile), 0.0}); // of the tiles' nearest row
+        constexpr double beside = 2.0;
+        const double half = beam.shape == torch::Shape::Round
+                                ? std::sqrt(std::max(middle * middle - away * away, 0.0)) + beside
+                                : middle;
+        const int first = std::max(static_cast<int>(middle - half), 0);
+        tiles.ask({.x = first, .y = y, .width = px - 2 * first, .height = tile});
+    }
+    return tiles;
 }
 
 } // namespace
@@ -112,9 +131,7 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
             calls += draw_view(view, target, store, shaders, shows_own_view(light));
         }
         if (on_processor) {
-            constexpr PixelRectangle whole{
-                .x = 0, .y = 0, .width = scene::torch_picture_px, .height = scene::torch_picture_px};
-            cast_view(light, view, meshes ? whole : painted.seen_by(k), target, store);
+            cast_view(light, view, meshes ? tiles_in(light.torch.beam) : painted.asked_of(k), target, store);
             picture.shadow = target.nearness.get();
             picture.inverse_z = light.inverse_z_of_nearness;
         } else {
@@ -126,8 +143,9 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
 }
 
 void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
-                          const PixelRectangle& part, const Target& target, const GpuStore& store) {
-    if (part.empty()) {
+                          const relief::TileMask& asked, const Target& target, const GpuStore& store) {
+    const PixelRectangle bounds = asked.bounds();
+    if (bounds.empty()) {
         return;
     }
     constexpr int px = scene::torch_picture_px;
@@ -136,9 +154,9 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
         const auto as_picture = [](std::span<float> rows) {
             return relief::PictureSpan<float>{.first = rows.data(), .width = px, .height = px, .stride = px};
         };
-        rasters_.paint_nearness(view, store, part, as_picture(shadow_map_.nearness()));
+        rasters_.paint_nearness(view, store, asked, as_picture(shadow_map_.nearness()));
         if (is_within_any_relief(light, view)) {
-            rasters_.paint_nearness(view, store, part, as_picture(shadow_map_.backs()), relief::Facing::Away);
+            rasters_.paint_nearness(view, store, asked, as_picture(shadow_map_.backs()), relief::Facing::Away);
         }
     }
     const geometry::Pinhole& pinhole = view.projector;
@@ -158,8 +176,12 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
     shadow_map_.find_farthest_of_four(slack_of(light));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target.nearness.get());
-    const std::span<const float> rows = shadow_map_.nearness().subspan(static_cast<std::size_t>(part.y) * px);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, part.y, px, part.height, GL_RED, GL_FLOAT, rows.data());
+    const std::span<const float> first =
+        shadow_map_.nearness().subspan(static_cast<std::size_t>(bounds.y * px + bounds.x));
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, px);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, bounds.x, bounds.y, bounds.width, bounds.height, GL_RED, GL_FLOAT,
+                    first.data());
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
 int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,

@@ -48,10 +48,10 @@ private:
         gl::GlTexture nearness; ///< shadow map of what was found on the processor
     };
     [[nodiscard]] Result<void> make_targets();
-    /// Finds the nearness of what the torch sees in a part of its picture, on the processor, and copies it into the target's
+    /// Finds the nearness of what the torch sees in some tiles of its picture, on the processor, and copies it into the target's
     /// texture.
-    void cast_view(const scene::TorchLight& light, const scene::FramePlan& view, const PixelRectangle& part,
-                   const Target& target, const GpuStore& store);
+    void cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
+                   const relief::TileMask& asked, const Target& target, const GpuStore& store);
     /// Draws all that the torch sees, with its colours or without. Returns the number of draw calls.
     int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
                   const ShaderCache& shaders, bool colours);

@@ -474,6 +474,9 @@ ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
     state.loaded = artifact_cache.ready();
     state.loaded_bytes = artifact_cache.bytes();
     state.state = presentation.state;
+    if (torches_) {
+        state.torch = shown_torch(presentation, set_->torch_contents.get());
+    }
     return state;
 }
 

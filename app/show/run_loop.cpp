@@ -4,6 +4,7 @@
 #include "app/render/probe.h"
 #include "app/show/device_intake.h"
 #include "app/show/screen_output.h"
+#include "app/show/torch_show.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,6 +134,7 @@ private:
         watch_.look(now, display_, inputs_);
         count(drawn.presented, drawn.changed, now, ms);
         step_screen(now, tracked_state, begin);
+        torches_ = tracked_state.torches;
         result_.status.prop_known = tracked_state.prop_known;
         result_.status.head_known = tracked_state.head_known;
         const ShowState state = show_.state();
@@ -358,6 +360,7 @@ private:
         status.loaded_bytes = state.loaded_bytes;
         status.seen_import = state.import;
         status.import = report_of(state.import);
+        status.torch = state.torch ? std::optional(torch_report(*state.torch, torches_)) : std::nullopt;
         status.language = state.language;
         status.louder_db = state.louder_db;
         status.technique = state.levels.technique;
@@ -438,6 +441,7 @@ private:
     std::vector<counts::VisitPiece> visit_pieces_; ///< not taken yet
     counts::CountedVisits visits_;
     std::uint8_t probe_code_ = 0;
+    decltype(tracking::TrackedState::torches) torches_{}; ///< of the latest step
     std::size_t rows_expected_ = 0;
     LoopResult result_;
 };

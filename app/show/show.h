@@ -23,6 +23,14 @@
 
 namespace frustumscreen::show {
 
+/// The torch that was taken last, as it is shown.
+struct ShownTorch {
+    std::optional<std::size_t> held; ///< 0 the tracker's, 1 a camera's; none: none is in a hand
+    std::optional<exhibit::TorchAim> aim;
+    bool lit = false;         ///< it gives light to the artifact
+    std::string_view content; ///< by its name; empty: none is held
+};
+
 /// The contents of a frame, for the status and the report. The texts live as long as the show.
 struct ShowState {
     std::string_view artifact; ///< title; empty for the pattern
@@ -40,6 +48,7 @@ struct ShowState {
     exhibit::State state = exhibit::State::Staff;
     ToldText told = {};
     SharedImport import = {};               ///< the importer's report; null: none
+    std::optional<ShownTorch> torch = {};   ///< none: there are no torches
     std::optional<MonotonicTime> used = {}; ///< when it was last used; nothing: never
     bool calibrate = false;                 ///< the staff asked for the table's calibration in this step
     bool reset = false;                     ///< the staff confirmed the state of delivery in this step

@@ -41,6 +41,42 @@ double strength(torch::Blend blend, const exhibit::Presentation& presentation) {
 
 } // namespace
 
+ShownTorch shown_torch(const exhibit::Presentation& presentation, const residency::TorchContents* contents) {
+    ShownTorch shown{.held = presentation.torches.held, .aim = presentation.torches.aim, .content = {}};
+    for (const exhibit::PresentedLight& light : presentation.torches.lights()) {
+        if (light.left || light.colour != shown.held) {
+            continue;
+        }
+        const torch::Content* const content = light.content && contents != nullptr
+                                                  ? contents->find(presentation.artifact, *light.content)
+                                                  : nullptr;
+        shown.lit = true;
+        shown.content = content != nullptr ? std::string_view(content->name) : torch::white_name;
+    }
+    return shown;
+}
+
+status::TorchReport torch_report(const ShownTorch& shown, std::span<const tracking::TrackedTorch> torches) {
+    constexpr std::array<std::string_view, tracking::max_tracked_torches> by{"tracker", "tag"};
+    const auto nearest = std::max_element(
+        torches.begin(), torches.end(), [](const tracking::TrackedTorch& a, const tracking::TrackedTorch& b) {
+            return a.presence < b.presence;
+        });
+    if (!shown.held && (nearest == torches.end() || nearest->presence == tracking::TorchPresence::Lost)) {
+        return {};
+    }
+    const std::size_t number = shown.held.value_or(static_cast<std::size_t>(nearest - torches.begin()));
+    status::TorchReport report{.by = std::string(by.at(number)), .content = std::string(shown.content)};
+    if (!shown.held && nearest->presence == tracking::TorchPresence::Lies) {
+        report.state = "laid_down";
+    } else if (shown.aim == exhibit::TorchAim::Past || shown.aim == exhibit::TorchAim::TooFar) {
+        report.state = shown.aim == exhibit::TorchAim::Past ? "past" : "too_far";
+    } else {
+        report.state = shown.lit ? "lit" : "dark";
+    }
+    return report;
+}
+
 Result<void> TorchShow::prepare(render::GpuStore& store) {
     TRY(spot_, store.upload(spot_picture()));
     return {};

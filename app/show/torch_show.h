@@ -12,6 +12,7 @@
 #include "app/residency/torch_contents.h"
 #include "app/scene/placed_torch.h"
 #include "app/settings/settings.h"
+#include "app/show/show.h"
 
 #include <array>
 #include <cstdint>
@@ -44,6 +45,13 @@ private:
     scene::TextureId spot_ = scene::TextureId::None;
     std::array<scene::PlacedTorch, torch::max_torches> placed_{};
 };
+
+/// For the status. `contents`: null: packs have none.
+[[nodiscard]] ShownTorch shown_torch(const exhibit::Presentation& presentation,
+                                     const residency::TorchContents* contents);
+
+[[nodiscard]] status::TorchReport torch_report(const ShownTorch& shown,
+                                               std::span<const tracking::TrackedTorch> torches);
 
 /// The lights' contents, for TorchContents::step.
 struct WantedContents {

@@ -350,6 +350,20 @@ void device_fields(auto& fields, auto& status) {
                  "whose pose of the prop is shown: `tracker` or `tags`; empty: the prop stands");
     fields.field("hand_overs", status.hand_overs,
                  "how often the tags took over from the tracker, or it from them");
+    fields.object_or_null("torch", status.torch,
+                          "the torch that was taken last ([torch.md](torch.md)): `by`, `tracker` (its "
+                          "station 3) or `tag` (a lamp that a camera "
+                          "sees), empty: neither is seen; `state`: `lit`; `past`, it points past the object; "
+                          "`too_far`, it points at it from "
+                          "beyond its reach; `dark`, nothing is shown that it could light; `laid_down`; "
+                          "`lost`, its place is not known; `content`, "
+                          "what the one in the hand throws, by its name in the pack, or `white`. `null`: the "
+                          "settings have no torch",
+                          Metric{}, [](auto& inner, auto& torch) {
+                              inner.field("by", torch.by);
+                              inner.field("state", torch.state);
+                              inner.field("content", torch.content);
+                          });
     fields.field("panel", status.panel,
                  "how the buttons are, or what presses in their place; empty: there are none");
     fields.field("sound", status.sound, "how the loudspeaker is; empty: there is nothing to say aloud");

@@ -128,6 +128,17 @@ std::string places_line(const StatusReport& status) {
                        status.eye_by == "camera" ? "seen by the camera" : word(status.head_known));
 }
 
+/// Empty without a torch.
+std::string torch_line(const StatusReport& status) {
+    if (!status.torch) {
+        return {};
+    }
+    const TorchReport& torch = *status.torch;
+    const std::string by = torch.by.empty() ? std::string() : " (" + brief(torch.by) + ")";
+    const std::string throws = torch.content.empty() ? std::string() : ", throws " + brief(torch.content);
+    return brief(torch.state) + by + throws;
+}
+
 std::string camera_line(const StatusReport& status) {
     return status.camera.view().empty()
                ? std::string()
@@ -344,6 +355,7 @@ void add_exhibit(Lines& lines, const StatusReport& status, std::optional<double>
     lines.add("screen", screen_output_line(status));
     lines.add("tracker", or_else(status.tracker.view(), "there is none"));
     lines.add("places", places_line(status));
+    lines.add("torch", torch_line(status));
     lines.add("camera", camera_line(status));
     lines.add("calibration", status.drift.view());
     lines.add("buttons", or_else(status.panel.view(), "there are none"));

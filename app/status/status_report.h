@@ -190,6 +190,13 @@ struct TrackedStatus {
     std::optional<double> eye_sd_m; ///< of an eye measured by the camera, TrackedState::eye_sd_m
 };
 
+/// The torch in the hand; if none is held, the one that is seen.
+struct TorchReport {
+    std::string by;            ///< tracker or tag; empty: none is seen
+    std::string state{"lost"}; ///< lit, past, too_far, dark, laid_down or lost
+    std::string content;       ///< name in the pack, or white; empty: none is held
+};
+
 /// The fields in groups by subject.
 struct StatusReport : ProgramStatus,
                       ShownStatus,
@@ -199,6 +206,7 @@ struct StatusReport : ProgramStatus,
                       DriftStatus,
                       TrackedStatus {
     std::shared_ptr<const library::ImportReport> import; ///< the importer's report; null: none
+    std::optional<TorchReport> torch;                    ///< nothing: there are no torches
     std::optional<VisitsReport> visits;                  ///< nothing: visits are not counted
 };
 

@@ -34,7 +34,7 @@ std::vector<TrackedState> pose_frames(std::span<const tracker::PoseSample> sampl
         if (sample.ok && sample.station == tracker::torch_station && frame != frames.end() &&
             frame->second.torches[0].share == 0.0) {
             if (const std::optional<glm::dquat> turn = geometry::normalised(sample.rotation)) {
-                frame->second.torches[0] = {{*turn, sample.position_m}, 1.0};
+                frame->second.torches[0] = {{*turn, sample.position_m}, 1.0, TorchPresence::InHand};
             }
         }
     }

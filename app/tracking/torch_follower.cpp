@@ -34,6 +34,9 @@ TrackedTorch TorchFollower::at(MonotonicTime lit) {
     TrackedTorch torch;
     torch.table_from_torch = shown_.follow(estimate, lit);
     torch.share = share_.update(lit, known ? std::optional(estimate.pose) : std::nullopt);
+    torch.presence = !known         ? TorchPresence::Lost
+                     : share_.lit() ? TorchPresence::InHand
+                                    : TorchPresence::Lies;
     return torch;
 }
 

@@ -40,10 +40,10 @@ double TorchShare::update(MonotonicTime now,
     if (table_from_torch) {
         follow(now, *table_from_torch);
     }
-    const bool lit = table_from_torch && !lies_ && table_from_torch->translation.z >= 0.0;
+    lit_ = table_from_torch && !lies_ && table_from_torch->translation.z >= 0.0;
     const double dt_s = last_ ? to_seconds(std::max(now - *last_, Nanoseconds(0))) : 0.0;
     last_ = now;
-    progress_ = std::clamp(progress_ + (lit ? dt_s / comes_s : -dt_s / goes_s), 0.0, 1.0);
+    progress_ = std::clamp(progress_ + (lit_ ? dt_s / comes_s : -dt_s / goes_s), 0.0, 1.0);
     return geometry::ease(progress_);
 }
 

@@ -28,11 +28,13 @@ public:
 
     /// `table_from_torch`: none: it is lost. Returns the share, 0..1.
     double update(MonotonicTime now, const std::optional<geometry::RigidTransform>& table_from_torch);
+    /// As of the latest update: its light comes, or is there.
+    [[nodiscard]] bool lit() const { return lit_; }
 
 private:
     void follow(MonotonicTime now, const geometry::RigidTransform& pose);
 
-    bool lies_ = true;
+    bool lies_ = true, lit_ = false;
     std::optional<geometry::RigidTransform> rested_; ///< where it has been since `still_since_`, or lies
     MonotonicTime still_since_;
     double progress_ = 0.0; ///< of the fade

@@ -50,7 +50,7 @@ TrackedState TrackedStateTracker::at(MonotonicTime now) const {
         tracked_state.head_known = true;
     }
     if (torch_ && now - torch_->time <= limits_.oldest_torch) {
-        tracked_state.torches[0] = {torch_->table_from_station, 1.0};
+        tracked_state.torches[0] = {torch_->table_from_station, 1.0, TorchPresence::InHand};
     }
     return tracked_state;
 }

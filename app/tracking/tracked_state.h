@@ -12,14 +12,23 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace frustumscreen::tracking {
+
+/// Whether a torch gives light, which comes and goes softly.
+enum class TorchPresence : std::uint8_t {
+    Lost,   ///< its place is not known
+    Lies,   ///< it was laid down, or hangs in its holder
+    InHand, ///< it shines
+};
 
 /// A hand-held torch. Its frame: torch.h.
 struct TrackedTorch {
     geometry::RigidTransform table_from_torch;
     double share = 0.0; ///< 0..1 of its light; 0: it is not known, or lies
+    TorchPresence presence = TorchPresence::Lost;
 };
 inline constexpr std::size_t max_tracked_torches = 2; ///< at the tracker, and one that a camera sees
 

@@ -79,6 +79,10 @@ class Torch(HilTest):
 
         eventually(is_so, SWEEP_S, lambda: said[0])
 
+    def status_says(self, state):
+        eventually(lambda: (self.bench.status() or {}).get("torch", {}).get("state") == state, GONE_S,
+                   lambda: f"not {state}: {(self.bench.status() or {}).get('torch')}")
+
     def is_as_without(self, prop, dark):
         eventually(lambda: screen.count(screen.changed(dark, self.bench.picture_of(prop), CHANGED)) == 0, GONE_S,
                    "the light stays, though the torch is gone")
@@ -91,7 +95,9 @@ class Torch(HilTest):
                 with self.subTest(prop=place, aim=aim):
                     begin, end = ([a + b for a, b in zip(place, point)] for point in (FROM_M, aim))
                     self.changes_as_rendered(prop, pointing(begin, end), dark)
+            self.status_says("lit")
             self.bench.tracker.tell("away", TORCH_STATION)
+            self.status_says("lost")
             self.is_as_without(prop, dark)
 
     def test_it_stays_in_the_hand_while_the_prop_moves(self):

@@ -83,9 +83,12 @@ protected:
 TEST_F(RunTorch, LightsWhatItPointsAtWhileItSweepsAndNothingElse) {
     put_poses(-0.06, 0.06);
     write_settings("replay", dark_table);
-    static_cast<void>(run("without"));
+    EXPECT_TRUE(run("without").at("torch").is_null());
     write_settings("replay", std::string(dark_table) + torch_table);
-    static_cast<void>(run("with"));
+    const nlohmann::json torch = run("with").at("torch");
+    EXPECT_EQ(torch.at("by"), "tracker");
+    EXPECT_EQ(torch.at("state"), "lit");
+    EXPECT_EQ(torch.at("content"), "white");
     const Lit first = lit("frame_00000.png"), second = lit("frame_00001.png");
     EXPECT_GT(first.pixels, 40);
     EXPECT_GT(second.pixels, 40);
@@ -111,7 +114,7 @@ TEST_F(RunTorch, PointedPastTheObjectItShowsAFaintSpotAlone) {
     write_settings("replay", dark_table);
     static_cast<void>(run("without"));
     write_settings("replay", std::string(dark_table) + torch_table);
-    static_cast<void>(run("with"));
+    EXPECT_EQ(run("with").at("torch").at("state"), "past");
     const Lit second = lit("frame_00001.png");
     EXPECT_EQ(second.pixels, 0);
     EXPECT_EQ(second.darker, 0);

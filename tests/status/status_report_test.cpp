@@ -70,6 +70,7 @@ StatusReport full_report() {
           &report.devices.panel, &report.devices.sound}) {
         *device = DeviceReport({DeviceHealth::Impaired, "device.impaired"});
     }
+    report.torch = TorchReport{"tag", "past", "x-ray"};
     report.visits = VisitsReport{34, 40, 7080.5, 8000.25, "the disk is full"};
     report.display = Sentence("lights HDMI-A-1");
     report.screen = Sentence("lights DP-1");

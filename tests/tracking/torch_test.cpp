@@ -196,7 +196,9 @@ TEST(LiveTrackedTorch, IsStationThreeWhereTheSettingsHaveOne) {
     LiveTrackedState with({0.0, -0.5, 0.5}, 0.06, {}, PropMotion::OnTable, {.tracker = true});
     const TrackedState state = waved(with, tracker::torch_station);
     EXPECT_EQ(state.torches[0].share, 1.0);
+    EXPECT_EQ(state.torches[0].presence, TorchPresence::InHand);
     EXPECT_EQ(state.torches[1].share, 0.0);
+    EXPECT_EQ(state.torches[1].presence, TorchPresence::Lost);
     EXPECT_NEAR(state.torches[0].table_from_torch.translation.x, 0.119, 0.005);
     EXPECT_FALSE(state.prop_known);
 
