@@ -59,7 +59,7 @@ TEST(PointMaker, MakesThePatchThatIsLookedAtFirstAndItsNeighboursNext) {
     EXPECT_TRUE(order.is_by_angle(hemisphere));
 }
 
-/// From every place of the hemisphere's cap, at most a few pixels are empty that the rasterizer fills.
+/// From every place of the hemisphere's cap, at most one pixel in 400 is empty that the rasterizer fills.
 TEST(PointMaker, AnEyeAnywhereInAPatchSeesNoHoles) {
     constexpr int px = 96;
     const Hemisphere hemisphere(eye_distance_m);
@@ -83,7 +83,7 @@ TEST(PointMaker, AnEyeAnywhereInAPatchSeesNoHoles) {
             ++pixels;
         }
     }
-    EXPECT_LE(holes, pixels / 500);
+    EXPECT_LE(holes, pixels / 400); // a quarter of the 1 % that a silhouette may err by
 }
 
 /// Worlds that hide each other show as one world of all their triangles does.
