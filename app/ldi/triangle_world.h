@@ -27,7 +27,7 @@ struct TriangleWorld {
     std::vector<glm::vec2> texture_places;
     std::shared_ptr<const image::Image8> texture;
     bool cut_out = false;   ///< where the last component is below one half is a hole
-    bool one_sided = false; ///< a picture (triangle_rasterizer.h) does not show backs
+    bool one_sided = false; ///< backs are not shown
 
     [[nodiscard]] std::size_t triangle_count() const { return indices.size() / 3; }
 };
