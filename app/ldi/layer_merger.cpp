@@ -47,14 +47,19 @@ SurfacePoint surface_at(const DepthPicture& picture, const PictureMap& map, int 
             map.point(x + 0.5, y + 1.5, nearness + down) - point};
 }
 
-/// Half the size of the box in the image that holds the picture's pixel.
-glm::dvec2 half_box(const PictureMap& map, const SurfacePoint& surface, const PictureMap::Place& place) {
+/// Where the next pixels of the picture lie in the image, from the pixel's own place.
+glm::dmat2 image_from_picture(const PictureMap& map, const SurfacePoint& surface,
+                              const PictureMap::Place& place) {
     const glm::dvec3 across = map.homogeneous_from_eye(surface.across);
     const glm::dvec3 down = map.homogeneous_from_eye(surface.down);
     const glm::dvec2 at(place.x, place.y);
-    const glm::dvec2 size =
-        glm::abs(glm::dvec2(across) - at * across.z) + glm::abs(glm::dvec2(down) - at * down.z);
-    return glm::min(0.5 * place.nearness * size, glm::dvec2(max_half_box_px));
+    return place.nearness * glm::dmat2(glm::dvec2(across) - at * across.z, glm::dvec2(down) - at * down.z);
+}
+
+/// Half the size of the box in the image that holds the picture's pixel.
+glm::dvec2 half_box(const glm::dmat2& image_from_picture) {
+    const glm::dvec2 size = glm::abs(image_from_picture[0]) + glm::abs(image_from_picture[1]);
+    return glm::min(0.5 * size, glm::dvec2(max_half_box_px));
 }
 
 /// The slope of the surface in the image, at most `limit` long.
@@ -70,11 +75,103 @@ glm::dvec2 slope_in(const PictureMap& map, const SurfacePoint& surface, double l
     return through == 0.0 ? glm::dvec2(0.0) : slope / through;
 }
 
+/// The colours around a picture's pixel.
+class ColoursAround {
+public:
+    ColoursAround(const DepthPicture& picture, double step_share, int x, int y,
+                  const glm::dmat2& image_from_picture)
+        : picture_(picture), x_(x), y_(y),
+          limit_(max_picture_steps * step_share * static_cast<double>(picture.nearness[picture.at(x, y)])),
+          is_edge_on_(std::fabs(glm::determinant(image_from_picture)) < min_area_px),
+          picture_from_image_(is_edge_on_ ? glm::dmat2(0.0) : glm::inverse(image_from_picture)) {}
+
+    /// Bilinear, beside the pixel's own place, in the image's pixels. Pixels of other surfaces do not count.
+    [[nodiscard]] glm::u8vec4 at(const glm::dvec2& beside) const {
+        const glm::dvec2 off = picture_from_image_ * beside;
+        const glm::vec2 share(glm::min(glm::abs(off), 1.0));
+        const int across = off.x < 0.0 ? -1 : 1;
+        const int down = off.y < 0.0 ? -1 : 1;
+        const glm::vec4 colour =
+            glm::mix(glm::mix(colour_of(0, 0), colour_of(across, 0), share.x),
+                     glm::mix(colour_of(0, down), colour_of(across, down), share.x), share.y);
+        return glm::u8vec4(colour + 0.5F);
+    }
+
+private:
+    /// Of a surface that the picture sees edge-on, the own colour stays.
+    static constexpr double min_area_px = 0.05;
+
+    /// The pixel's own where the other one shows another surface.
+    [[nodiscard]] glm::vec4 colour_of(int across, int down) const {
+        const int x = x_ + across;
+        const int y = y_ + down;
+        const std::size_t own = picture_.at(x_, y_);
+        if (x < 0 || y < 0 || x >= picture_.camera.width || y >= picture_.camera.height) {
+            return picture_.colours[own];
+        }
+        const std::size_t other = picture_.at(x, y);
+        const auto apart = static_cast<double>(std::fabs(picture_.nearness[other] - picture_.nearness[own]));
+        return picture_.colours[apart <= limit_ ? other : own];
+    }
+
+    const DepthPicture& picture_;
+    int x_, y_;
+    double limit_; ///< of nearness, between neighbours on one surface
+    bool is_edge_on_;
+    glm::dmat2 picture_from_image_;
+};
+
 } // namespace
 
 LayerMerger::LayerMerger(const PictureCamera& camera, double tolerance_steps)
     : camera_(camera), map_(camera), tolerance_steps_(tolerance_steps),
       heads_(camera.pixel_count(), no_node) {}
+
+template <typename Colour>
+void LayerMerger::insert(std::size_t pixel, DepthPixel added, const Colour& colour) {
+    std::uint32_t before = no_node;
+    std::uint32_t after = heads_[pixel];
+    for (std::uint32_t node = heads_[pixel]; node != no_node; node = nodes_[node].next) {
+        const DepthPixel& other = nodes_[node].pixel;
+        const auto apart = static_cast<double>(std::fabs(other.nearness - added.nearness));
+        if (apart <= tolerance_steps_ * map_.step_share() *
+                         static_cast<double>(std::max(other.nearness, added.nearness))) {
+            return;
+        }
+        if (other.nearness < added.nearness) {
+            before = node;
+            after = nodes_[node].next;
+        }
+    }
+    added.colour = colour();
+    const auto number = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({added, after});
+    (before == no_node ? heads_[pixel] : nodes_[before].next) = number;
+}
+
+template <typename Colour>
+void LayerMerger::add_box(const PictureMap::Place& place, const glm::dvec2& half, DepthPixel added,
+                          const Colour& colour) {
+    if (!(std::fabs(place.x) < 2.0 * max_picture_side && std::fabs(place.y) < 2.0 * max_picture_side)) {
+        return;
+    }
+    const auto column = static_cast<int>(std::floor(place.x));
+    const auto row = static_cast<int>(std::floor(place.y));
+    for (int y = std::max(0, row - 1); y <= std::min(row + 1, camera_.height - 1); ++y) {
+        for (int x = std::max(0, column - 1); x <= std::min(column + 1, camera_.width - 1); ++x) {
+            const glm::dvec2 to_middle(x + 0.5 - place.x, y + 0.5 - place.y);
+            const bool covered = std::fabs(to_middle.x) <= half.x && std::fabs(to_middle.y) <= half.y;
+            added.nearness =
+                static_cast<float>(place.nearness + glm::dot(glm::dvec2(added.slope), to_middle));
+            if ((covered || (x == column && y == row)) && added.nearness > 0.0F &&
+                std::isfinite(added.nearness)) {
+                insert(static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) +
+                           static_cast<std::size_t>(x),
+                       added, [&] { return colour(to_middle); });
+            }
+        }
+    }
+}
 
 void LayerMerger::add(const DepthPicture& picture) {
     const PictureMap from(picture.camera);
@@ -91,53 +188,13 @@ void LayerMerger::add(const DepthPicture& picture) {
             if (const auto place = map_.project(surface.point)) {
                 const glm::dvec2 slope =
                     slope_in(map_, surface, max_slope_steps * map_.step_share() * place->nearness);
-                add_box(*place, half_box(map_, surface, *place),
-                        {0.0F, glm::vec2(slope), picture.colours[pixel]});
+                const glm::dmat2 to_image = image_from_picture(map_, surface, *place);
+                const ColoursAround colours(picture, from.step_share(), x, y, to_image);
+                add_box(*place, half_box(to_image), {0.0F, glm::vec2(slope), picture.colours[pixel]},
+                        [&colours](const glm::dvec2& beside) { return colours.at(beside); });
             }
         }
     }
-}
-
-void LayerMerger::add_box(const PictureMap::Place& place, const glm::dvec2& half, DepthPixel added) {
-    if (!(std::fabs(place.x) < 2.0 * max_picture_side && std::fabs(place.y) < 2.0 * max_picture_side)) {
-        return;
-    }
-    const auto column = static_cast<int>(std::floor(place.x));
-    const auto row = static_cast<int>(std::floor(place.y));
-    for (int y = std::max(0, row - 1); y <= std::min(row + 1, camera_.height - 1); ++y) {
-        for (int x = std::max(0, column - 1); x <= std::min(column + 1, camera_.width - 1); ++x) {
-            const glm::dvec2 to_middle(x + 0.5 - place.x, y + 0.5 - place.y);
-            const bool covered = std::fabs(to_middle.x) <= half.x && std::fabs(to_middle.y) <= half.y;
-            added.nearness =
-                static_cast<float>(place.nearness + glm::dot(glm::dvec2(added.slope), to_middle));
-            if ((covered || (x == column && y == row)) && added.nearness > 0.0F &&
-                std::isfinite(added.nearness)) {
-                insert(static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) +
-                           static_cast<std::size_t>(x),
-                       added);
-            }
-        }
-    }
-}
-
-void LayerMerger::insert(std::size_t pixel, const DepthPixel& added) {
-    std::uint32_t before = no_node;
-    std::uint32_t after = heads_[pixel];
-    for (std::uint32_t node = heads_[pixel]; node != no_node; node = nodes_[node].next) {
-        const DepthPixel& other = nodes_[node].pixel;
-        const auto apart = static_cast<double>(std::fabs(other.nearness - added.nearness));
-        if (apart <= tolerance_steps_ * map_.step_share() *
-                         static_cast<double>(std::max(other.nearness, added.nearness))) {
-            return;
-        }
-        if (other.nearness < added.nearness) {
-            before = node;
-            after = nodes_[node].next;
-        }
-    }
-    const auto number = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({added, after});
-    (before == no_node ? heads_[pixel] : nodes_[before].next) = number;
 }
 
 LayeredDepth LayerMerger::take() const {

@@ -69,8 +69,11 @@ private:
         DepthPixel pixel;
         std::uint32_t next = 0;
     };
-    void add_box(const PictureMap::Place& place, const glm::dvec2& half, DepthPixel added);
-    void insert(std::size_t pixel, const DepthPixel& added);
+    /// `colour`: of the surface at a place in pixels beside `place`.
+    template <typename Colour>
+    void add_box(const PictureMap::Place& place, const glm::dvec2& half, DepthPixel added,
+                 const Colour& colour);
+    template <typename Colour> void insert(std::size_t pixel, DepthPixel added, const Colour& colour);
 
     PictureCamera camera_;
     PictureMap map_;

@@ -112,7 +112,7 @@ FacingTriangle PatchView::facing(const TriangleWorld& world, std::uint32_t trian
         return facing;
     }
     const glm::dvec3 normal = cross / length;
-    const unsigned sides = sides_seen(normal, corners[0]);
+    const unsigned sides = sides_seen(normal, corners[0]) & (world.one_sided ? 1U : 3U);
     const glm::dvec3 in_patch = glm::normalize(glm::inverse(glm::transpose(patch_from_window_)) * normal);
     if ((sides & 1U) != 0) {
         add_directions(facing, in_patch);

@@ -34,6 +34,7 @@ void PointMaker::look_from(const glm::dvec3& eye) {
     if (patch && building_ && *patch != *building_ && patches_[*patch] == nullptr) {
         building_.reset();
         merger_.reset();
+        seen_.reset();
     }
 }
 
@@ -100,9 +101,9 @@ void PointMaker::begin_merging() {
 }
 
 void PointMaker::finish() {
-    auto patch = std::make_shared<PointPatch>(point_patch(merger_->take()));
+    auto patch = std::make_shared<PointPatch>(seen_->take());
     patch->number = first_number_ + *building_;
-    merger_.reset();
+    seen_.reset();
     std::uint64_t patches_bytes = patch->bytes();
     for (const auto& other : patches_) {
         patches_bytes += other ? other->bytes() : 0;
@@ -132,6 +133,13 @@ bool PointMaker::step(std::size_t triangles) {
     if (!building_) {
         return false;
     }
+    if (seen_) {
+        if (seen_->step()) {
+            return true;
+        }
+        finish();
+        return !is_full_ && made_count() < patch_count;
+    }
     if (!merger_) {
         if (!draw_part(triangles)) {
             begin_merging();
@@ -143,8 +151,9 @@ bool PointMaker::step(std::size_t triangles) {
         merger_->add(*pictures_[cameras[merged_++]]);
         return true;
     }
-    finish();
-    return !is_full_ && made_count() < patch_count;
+    seen_.emplace(point_patch(merger_->take()), order_.hemisphere(), *building_, view_);
+    merger_.reset();
+    return true;
 }
 
 std::size_t PointMaker::made_count() const {
@@ -152,7 +161,8 @@ std::size_t PointMaker::made_count() const {
 }
 
 std::uint64_t PointMaker::bytes() const {
-    std::uint64_t bytes = rasterizer_.bytes() + (merger_ ? merger_->bytes() : 0);
+    std::uint64_t bytes =
+        rasterizer_.bytes() + (merger_ ? merger_->bytes() : 0) + (seen_ ? seen_->bytes() : 0);
     const auto add = [&bytes](const std::unique_ptr<DepthPicture>& picture) {
         bytes +=
             picture ? picture->nearness.size() * sizeof(float) + picture->colours.size() * sizeof(glm::u8vec4)

@@ -11,6 +11,7 @@
 #include "app/ldi/patch_layers.h"
 #include "app/ldi/patch_order.h"
 #include "app/ldi/point_patch.h"
+#include "app/ldi/seen_points.h"
 #include "app/ldi/triangle_rasterizer.h"
 #include "app/ldi/triangle_world.h"
 
@@ -68,7 +69,8 @@ private:
     std::size_t world_ = 0, next_triangle_ = 0; ///< of it
     std::optional<std::size_t> building_;       ///< the patch that is being made
     std::optional<LayerMerger> merger_;
-    std::size_t merged_ = 0; ///< pictures
+    std::optional<SeenPoints> seen_; ///< after merging
+    std::size_t merged_ = 0;         ///< pictures
     std::array<std::shared_ptr<const PointPatch>, patch_count> patches_;
     bool is_full_ = false;
 };

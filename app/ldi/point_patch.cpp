@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -52,7 +53,13 @@ Warp warp_through(const PictureMap& from, const glm::mat<4, 3, double>& to) {
 struct Target {
     std::span<std::uint64_t> nearest;
     int width = 0, height = 0;
+    CellMask cells = all_cells; ///< of the eye
 };
+
+/// The point that a collineation does not map; NaN where there is none.
+glm::dvec3 eye_of(const glm::mat<4, 3, double>& pixel_from_window) {
+    return -(glm::inverse(glm::dmat3(pixel_from_window)) * pixel_from_window[3]);
+}
 
 FRUSTUMSCREEN_INLINE Ints load_ints(const std::uint32_t* from) {
     Ints value;
@@ -70,10 +77,11 @@ FRUSTUMSCREEN_INLINE Ints first_pixels(Floats places, float count) {
     return __builtin_convertvector(relief::least(relief::most(places + 0.5F, Floats{}), all(count)), Ints);
 }
 
+/// What eight points cover.
 struct Boxes {
     Ints left, right, top, bottom; ///< pixels; right and bottom excluded
     Floats seen;                   ///< nearness for the eye
-    unsigned drawn = 0;            ///< bit k: lane k has a box
+    Ints drawn;                    ///< mask: the lane has a box
 };
 
 /// Half the side of a splat, from the warp's Jacobian along the surface.
@@ -111,8 +119,9 @@ FRUSTUMSCREEN_INLINE Boxes boxes_at(const PointPatch& patch, std::size_t first, 
                 .right = first_pixels(u + half_width, width),
                 .top = first_pixels(v - half_height, height),
                 .bottom = first_pixels(v + half_height, height),
-                .seen = nearness * scale};
-    boxes.drawn = relief::bits_of(before & (boxes.left < boxes.right) & (boxes.top < boxes.bottom));
+                .seen = nearness * scale,
+                .drawn = {}};
+    boxes.drawn = before & (boxes.left < boxes.right) & (boxes.top < boxes.bottom);
     return boxes;
 }
 
@@ -120,42 +129,77 @@ FRUSTUMSCREEN_INLINE std::uint64_t nearer(std::uint64_t pixel, std::uint64_t poi
     return pixel > point ? pixel : point;
 }
 
-/// Most boxes are at most two pixels wide and high: their four corners are all of their pixels, some of them twice or four times.
-FRUSTUMSCREEN_INLINE void draw_box(const Boxes& boxes, int lane, std::uint64_t point, const Target& target) {
-    const auto width = static_cast<std::size_t>(target.width);
-    const auto left = static_cast<std::size_t>(boxes.left[lane]);
-    const auto last = static_cast<std::size_t>(boxes.right[lane] - 1);
-    std::uint64_t* const top = &target.nearest[static_cast<std::size_t>(boxes.top[lane]) * width];
-    std::uint64_t* const bottom = &target.nearest[static_cast<std::size_t>(boxes.bottom[lane] - 1) * width];
-    // All are read before one is written: where corners are one pixel, no read waits for a write.
-    const std::uint64_t top_left = nearer(top[left], point);
-    const std::uint64_t top_last = nearer(top[last], point);
-    const std::uint64_t bottom_left = nearer(bottom[left], point);
-    const std::uint64_t bottom_last = nearer(bottom[last], point);
-    top[left] = top_left;
-    top[last] = top_last;
-    bottom[left] = bottom_left;
-    bottom[last] = bottom_last;
-    if (last - left > 1 || bottom - top > target.width) {
-        for (std::uint64_t* row = top; row <= bottom; row += width) {
-            for (std::size_t x = left; x <= last; ++x) {
-                row[x] = nearer(row[x], point);
-            }
+/// Boxes as scalars.
+struct Corners {
+    alignas(32) std::array<std::uint64_t, lanes> points;
+    alignas(32) std::array<std::int32_t, lanes> top_left, top_last, bottom_left,
+        bottom_last;        ///< numbers of pixels
+    unsigned pairs, others; ///< bit k for lane k; a pair has one pixel, or two beside or below each other
+};
+
+FRUSTUMSCREEN_INLINE void corners_of(const Boxes& boxes, Ints colours, std::int32_t width, Corners& corners) {
+    Ints seen;
+    std::memcpy(&seen, &boxes.seen, sizeof seen);
+    const Ints low = __builtin_shufflevector(colours, seen, 0, 8, 1, 9, 2, 10, 3, 11);
+    const Ints high = __builtin_shufflevector(colours, seen, 4, 12, 5, 13, 6, 14, 7, 15);
+    std::memcpy(corners.points.data(), &low, sizeof low);
+    std::memcpy(&corners.points[lanes / 2], &high, sizeof high);
+    const Ints last = boxes.right - 1;
+    const Ints top = boxes.top * width;
+    const Ints bottom = (boxes.bottom - 1) * width;
+    relief::store(corners.top_left.data(), top + boxes.left);
+    relief::store(corners.top_last.data(), top + last);
+    relief::store(corners.bottom_left.data(), bottom + boxes.left);
+    relief::store(corners.bottom_last.data(), bottom + last);
+    const Ints wide = last - boxes.left;
+    const Ints high_px = boxes.bottom - 1 - boxes.top;
+    const Ints is_pair = wide + high_px < 2;
+    corners.pairs = relief::bits_of(boxes.drawn & is_pair);
+    corners.others = relief::bits_of(boxes.drawn & ~is_pair);
+}
+
+/// Nine boxes in ten are pairs.
+FRUSTUMSCREEN_INLINE void draw_pair(const Corners& corners, std::size_t lane, std::uint64_t* pixels) {
+    const std::uint64_t point = corners.points[lane];
+    std::uint64_t& one = pixels[corners.top_left[lane]];
+    std::uint64_t& other = pixels[corners.bottom_last[lane]];
+    // Both are read before one is written: where they are one pixel, no read waits for a write.
+    const std::uint64_t nearest = nearer(one, point);
+    const std::uint64_t nearest_other = nearer(other, point);
+    one = nearest;
+    other = nearest_other;
+}
+
+FRUSTUMSCREEN_INLINE void draw_box(const Corners& corners, std::size_t lane, const Target& target) {
+    const std::uint64_t point = corners.points[lane];
+    const std::int32_t wide = corners.top_last[lane] - corners.top_left[lane];
+    for (std::int32_t row = corners.top_left[lane]; row <= corners.bottom_left[lane]; row += target.width) {
+        for (std::int32_t pixel = row; pixel <= row + wide; ++pixel) {
+            std::uint64_t& nearest = target.nearest[static_cast<std::size_t>(pixel)];
+            nearest = nearer(nearest, point);
         }
     }
 }
 
 FRUSTUMSCREEN_INLINE void draw_points(const PointPatch& patch, const Warp& warp, const Target& target) {
-    for (std::size_t first = 0; first < patch.places.size(); first += lanes) {
-        const Boxes boxes = boxes_at(patch, first, warp, target);
-        for (unsigned left = boxes.drawn; left != 0; left &= left - 1) {
-            const int lane = std::countr_zero(left);
-            draw_box(boxes, lane,
-                     std::uint64_t{std::bit_cast<std::uint32_t>(static_cast<float>(boxes.seen[lane]))}
-                             << 32U |
-                         patch.colours[first + static_cast<std::size_t>(lane)],
-                     target);
+    static_assert(block_points == lanes);
+    const auto each = [](unsigned boxes, const auto& draw) FRUSTUMSCREEN_INLINED {
+        for (; boxes != 0; boxes &= boxes - 1) {
+            draw(static_cast<std::size_t>(std::countr_zero(boxes)));
         }
+    };
+    Corners corners;
+    std::uint64_t* const pixels = target.nearest.data();
+    for (std::size_t first = 0; first < patch.places.size(); first += lanes) {
+        if (!patch.seen.empty() && (patch.seen[first / lanes] & target.cells) == 0) {
+            continue;
+        }
+        corners_of(boxes_at(patch, first, warp, target), load_ints(&patch.colours[first]), target.width,
+                   corners);
+        each(corners.pairs,
+             [&](std::size_t lane) FRUSTUMSCREEN_INLINED { draw_pair(corners, lane, pixels); });
+        each(corners.others,
+             [&](std::size_t lane) FRUSTUMSCREEN_INLINED { draw_box(corners, lane, target); });
     }
 }
 
@@ -201,24 +245,38 @@ std::span<const std::uint64_t> PointSplatter::draw(const PointPatch& patch,
     nearest_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
     if (const PictureMap from(patch.camera); from.usable()) {
         const Warp warp = warp_through(from, pixel_from_window);
-        const Target target{nearest_, width, height};
+        const Target target{nearest_, width, height, patch.cells.cell_of(eye_of(pixel_from_window))};
+        relief::run_with<draw_points>(instructions, patch, warp, target);
+    }
+    return nearest_;
+}
+
+std::span<const std::uint64_t> PointSplatter::draw(const PointPatch& patch, const PictureCamera& camera,
+                                                   relief::Instructions instructions) {
+    nearest_.assign(camera.pixel_count(), 0);
+    const PictureMap from(patch.camera);
+    const PictureMap to(camera);
+    if (from.usable() && to.usable()) {
+        const Warp warp = warp_between(from, to);
+        const Target target{nearest_, camera.width, camera.height, patch.cells.cell_of(camera.eye)};
         relief::run_with<draw_points>(instructions, patch, warp, target);
     }
     return nearest_;
 }
 
 void PointSplatter::draw(const PointPatch& patch, DepthPicture& picture, relief::Instructions instructions) {
-    nearest_.assign(picture.camera.pixel_count(), 0);
-    const PictureMap from(patch.camera);
-    const PictureMap to(picture.camera);
-    if (from.usable() && to.usable()) {
-        const Warp warp = warp_between(from, to);
-        const Target target{nearest_, picture.camera.width, picture.camera.height};
-        relief::run_with<draw_points>(instructions, patch, warp, target);
+    const std::span<const std::uint64_t> words = draw(patch, picture.camera, instructions);
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        picture.nearness[k] = std::bit_cast<float>(static_cast<std::uint32_t>(words[k] >> 32U));
+        picture.colours[k] = std::bit_cast<glm::u8vec4>(static_cast<std::uint32_t>(words[k]));
     }
-    for (std::size_t k = 0; k < nearest_.size(); ++k) {
-        picture.nearness[k] = std::bit_cast<float>(static_cast<std::uint32_t>(nearest_[k] >> 32U));
-        picture.colours[k] = std::bit_cast<glm::u8vec4>(static_cast<std::uint32_t>(nearest_[k]));
+}
+
+void colours_of(std::span<const std::uint64_t> words, std::span<glm::u8vec4> colours) {
+    assert(words.size() == colours.size());
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const auto code = static_cast<std::uint32_t>(words[k]);
+        std::memcpy(&colours[k], &code, sizeof code);
     }
 }
 

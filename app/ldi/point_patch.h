@@ -14,6 +14,7 @@
 /// Source   layered_depth.h; a depth test by the larger of two 64-bit words.
 #pragma once
 
+#include "app/ldi/eye_cells.h"
 #include "app/ldi/layered_depth.h"
 #include "app/relief/instructions.h"
 
@@ -23,17 +24,23 @@
 
 namespace frustumscreen::ldi {
 
-/// A structure of arrays; empty points pad it to a multiple of eight.
+inline constexpr std::size_t block_points = 8;
+
+/// A structure of arrays; empty points pad it to a multiple of eight, and eight after one another are a block.
 struct PointPatch {
     PictureCamera camera;
     std::vector<std::uint32_t> places;  ///< column in the lower half, row in the upper
     std::vector<float> nearness;        ///< at the pixel's middle; 0: an empty point
     std::vector<std::uint32_t> slopes;  ///< two signed halves: a pixel to the right, a pixel down
     std::vector<std::uint32_t> colours; ///< red in the lowest byte
-    std::uint64_t number = 0;           ///< the maker's; a picture's hash takes it in place of the points
+    EyeCells cells;
+    std::vector<CellMask> seen; ///< of each block, the cells of the eyes that see it; none: all eyes may
+    std::uint64_t number = 0;   ///< the maker's; a picture's hash takes it in place of the points
 
     [[nodiscard]] std::uint64_t bytes() const {
-        return places.size() * (sizeof places[0] + sizeof nearness[0] + sizeof slopes[0] + sizeof colours[0]);
+        return places.size() *
+                   (sizeof places[0] + sizeof nearness[0] + sizeof slopes[0] + sizeof colours[0]) +
+               seen.size() * sizeof seen[0];
     }
 };
 [[nodiscard]] PointPatch point_patch(const LayeredDepth& layers);
@@ -44,15 +51,25 @@ public:
     void draw(const PointPatch& patch, DepthPicture& picture,
               relief::Instructions instructions = relief::best_instructions());
 
+    /// Draws it for a camera, and returns a word for each pixel, row by row, valid until the next call: nearness above, colour below;
+    /// 0: empty.
+    [[nodiscard]] std::span<const std::uint64_t>
+    draw(const PointPatch& patch, const PictureCamera& camera,
+         relief::Instructions instructions = relief::best_instructions());
+
     /// Draws it through a collineation: `pixel_from_window` times (point, 1) is (x w, y w, w), w above 0 before the eye, and 0 at
-    /// the eye's place and beside it. Returns a word for each pixel, row by row, valid until the next call: nearness above, colour
-    /// below; 0: empty. `width`, `height`: up to `max_picture_side`.
+    /// the eye's place and beside it. Words as above. `width`, `height`: up to `max_picture_side`.
     [[nodiscard]] std::span<const std::uint64_t>
     draw(const PointPatch& patch, const glm::mat<4, 3, double>& pixel_from_window, int width, int height,
          relief::Instructions instructions = relief::best_instructions());
 
+    [[nodiscard]] std::uint64_t bytes() const { return nearest_.capacity() * sizeof nearest_[0]; }
+
 private:
     std::vector<std::uint64_t> nearest_; ///< of each pixel: nearness above, colour below
 };
+
+/// The colours of a picture's words, red in the lowest byte; as many.
+void colours_of(std::span<const std::uint64_t> words, std::span<glm::u8vec4> colours);
 
 } // namespace frustumscreen::ldi

@@ -132,7 +132,8 @@ void TriangleRasterizer::draw_triangle(const Target& target, const Corner& a, co
     };
     const double area = static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
                         static_cast<double>(c.x - a.x) * static_cast<double>(b.y - a.y);
-    if (area == 0.0) {
+    if (area == 0.0 ||
+        (target.world.one_sided && area > 0.0)) { // rows go down: a back runs the other way round
         return;
     }
     const double sign = area > 0.0 ? 1.0 : -1.0;

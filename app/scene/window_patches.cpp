@@ -10,7 +10,8 @@ namespace frustumscreen::scene {
 const ldi::PointPatch* points_for(const WindowPatches& patches, const glm::dvec3& eye) {
     const double share = glm::length(eye) / patches.hemisphere.radius_m();
     const std::optional<std::size_t> patch = patches.hemisphere.patch_of(eye);
-    return patch && share >= min_eye_share && share <= max_eye_share ? patches.patches[*patch] : nullptr;
+    return patch && share >= ldi::min_eye_share && share <= ldi::max_eye_share ? patches.patches[*patch]
+                                                                               : nullptr;
 }
 
 Part part_of(const WindowPatches& patches, const ldi::PointPatch& points) {

@@ -24,11 +24,7 @@ struct WindowPatches {
     std::array<const ldi::PointPatch*, ldi::patch_count> patches{}; ///< null: not made
 };
 
-/// An eye nearer to the window's middle than this share of the hemisphere's radius, or farther than this multiple of it, may see
-/// what no camera of the hemisphere saw.
-inline constexpr double min_eye_share = 0.7, max_eye_share = 1.5;
-
-/// Null if there are no points for an eye, window's frame.
+/// Null if there are no points for an eye, window's frame: its patch is not made, or it is too near or far (ldi/eye_cells.h).
 [[nodiscard]] const ldi::PointPatch* points_for(const WindowPatches& patches, const glm::dvec3& eye);
 
 /// The patch as a part of the window's world.

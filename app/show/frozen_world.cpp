@@ -34,6 +34,7 @@ void add_level(const scene::SceneLevel& level, const image::Image8& texture, con
     }
     added.texture = std::make_shared<const image::Image8>(std::move(taken));
     added.cut_out = level.cut_out;
+    added.one_sided = true; // as the plan culls it
     world.worlds.push_back(std::move(added));
 }
 

@@ -169,7 +169,7 @@ TEST_P(EveryBuiltin, HasAllItsTextsInFiveLanguages) {
     }
 }
 
-TEST_P(EveryBuiltin, HasAPictureForEachLayerOfItsTorchAndTitlesInFiveLanguages) {
+TEST_P(EveryBuiltin, HasAPictureForEachLayerOfItsTorchAndStatesAndTitlesInFiveLanguages) {
     const std::vector<BuiltinLayer> layers = builtin_layers(GetParam());
     std::set<std::string> named;
     for (const folder::ArtifactTorch& content : folder_of(GetParam()).torches) {
@@ -178,6 +178,12 @@ TEST_P(EveryBuiltin, HasAPictureForEachLayerOfItsTorchAndTitlesInFiveLanguages) 
             if (!stage.file.empty()) {
                 named.insert(stage.file.string());
             }
+        }
+    }
+    for (const folder::ArtifactState& state : folder_of(GetParam()).states) {
+        EXPECT_EQ(state.titles.size(), 5U) << state.name;
+        if (state.layer) {
+            EXPECT_TRUE(named.contains(state.layer->file.string())) << "the torch's layer, not one more";
         }
     }
     EXPECT_EQ(named.size(), layers.size());

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen::ldi {
@@ -261,6 +262,36 @@ TEST(DepthPicture, IndicesBeyondThePositionsAndCornersThatAreNotFiniteAreNotDraw
     picture.begin(camera_through_window({0.0, 0.0, 0.4}, {0.1, 0.1}, 16, 16));
     TriangleRasterizer().draw(world, picture);
     EXPECT_EQ(std::count(picture.nearness.begin(), picture.nearness.end(), 0.0F), 16 * 16);
+}
+
+TEST(TriangleRasterizer, OfAOneSidedWorldShowsTheTrianglesThatFaceTheEye) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        TriangleWorld world = soup(seed, 300);
+        const glm::dvec3 eye(0.1 * seed, -0.1, 0.5);
+        TriangleWorld facing = world;
+        facing.indices.clear();
+        for (std::size_t k = 0; k < world.indices.size(); k += 3) {
+            const auto corner = [&](std::size_t of) {
+                return glm::dvec3(world.positions[world.indices[k + of]]);
+            };
+            const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+            if (glm::dot(normal, eye - corner(0)) > 0.0) {
+                facing.indices.insert(facing.indices.end(),
+                                      world.indices.begin() + static_cast<std::ptrdiff_t>(k),
+                                      world.indices.begin() + static_cast<std::ptrdiff_t>(k + 3));
+            }
+        }
+        EXPECT_GT(facing.triangle_count(), 50U);
+        EXPECT_LT(facing.triangle_count(), 250U);
+        world.one_sided = true;
+        DepthPicture one_sided, expected;
+        for (auto [picture, of] : {std::pair(&one_sided, &world), std::pair(&expected, &facing)}) {
+            picture->begin(camera_through_window(eye, {0.2, 0.2}, 96, 96));
+            TriangleRasterizer().draw(*of, *picture);
+        }
+        EXPECT_EQ(one_sided.nearness, expected.nearness);
+        EXPECT_EQ(one_sided.colours, expected.colours);
+    }
 }
 
 } // namespace

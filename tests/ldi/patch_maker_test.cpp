@@ -67,24 +67,12 @@ TEST(PatchMaker, MakesThePatchThatIsLookedAtFirstAndItsNeighboursNext) {
     const Hemisphere hemisphere(eye_distance_m);
     PatchMaker maker(shared_town(), hemisphere, making_limits());
     maker.look_from(eye_distance_m * hemisphere.middle_of(5));
-    std::vector<std::size_t> order;
-    std::size_t calls = 0;
-    for (bool more = true; more; ++calls) {
-        more = maker.step();
-        for (std::size_t patch = 0; patch < patch_count; ++patch) {
-            if (maker.patch(patch) && std::find(order.begin(), order.end(), patch) == order.end()) {
-                order.push_back(patch);
-            }
-        }
-    }
-    ASSERT_EQ(order.size(), patch_count);
-    EXPECT_EQ(order[0], 5U);
-    for (std::size_t k = 2; k < order.size(); ++k) {
-        EXPECT_GE(glm::dot(hemisphere.middle_of(5), hemisphere.middle_of(order[k - 1])),
-                  glm::dot(hemisphere.middle_of(5), hemisphere.middle_of(order[k])) - 1e-12);
-    }
+    const MakingOrder order(maker);
+    ASSERT_FALSE(order.patches.empty());
+    EXPECT_EQ(order.patches.front(), 5U);
+    EXPECT_TRUE(order.is_by_angle(hemisphere));
     EXPECT_FALSE(maker.step());
-    EXPECT_GT(calls, 100U); // small pieces
+    EXPECT_GT(order.calls, 100U); // small pieces
 }
 
 TEST(PatchMaker, TurnsToAnotherPatchAtOnceAndKeepsNoHalfMadeOne) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -265,6 +266,57 @@ TEST(PatchRelief, IsEmptyWhereNothingIsSeen) {
         EXPECT_TRUE(std::none_of(seen.colours.texels.begin(), seen.colours.texels.end(),
                                  [](const glm::u8vec4& texel) { return texel.a != 0; }));
     }
+}
+
+/// A roof that is thinner than a texel, light above and dark below: a patch cannot tell both sides apart.
+TEST(PatchRelief, OfAOneSidedWorldShowsNoUndersideOfAThinRoof) {
+    const Hemisphere hemisphere(eye_distance_m);
+    const PatchLimits limits{.half_extent_m = glm::dvec2(half_window_m), .texel_m = 2.0 * half_window_m / 64};
+    TriangleWorld roof;
+    const auto height = [](float x, float y) {
+        return -0.05F + 0.4F * x + 0.02F * std::sin(60.0F * x) * std::cos(50.0F * y);
+    };
+    constexpr int cells = 40;
+    for (const bool below : {false, true}) {
+        const auto first = static_cast<std::uint32_t>(roof.positions.size());
+        for (int j = 0; j <= cells; ++j) {
+            for (int i = 0; i <= cells; ++i) {
+                const float x = 0.005F * static_cast<float>(i - cells / 2);
+                const float y = 0.005F * static_cast<float>(j - cells / 2);
+                roof.positions.emplace_back(x, y, height(x, y) - (below ? 0.0002F : 0.0F));
+                roof.colours.emplace_back(glm::u8vec3(static_cast<std::uint8_t>(below ? 20 : 200)), 255);
+            }
+        }
+        for (std::uint32_t j = 0; j < cells; ++j) {
+            for (std::uint32_t i = 0; i < cells; ++i) {
+                const std::uint32_t a = first + j * (cells + 1) + i;
+                const std::uint32_t b = a + 1;
+                const std::uint32_t c = a + cells + 1;
+                const std::uint32_t d = c + 1;
+                for (const auto& [p, q, r] : {std::array{a, b, d}, std::array{a, d, c}}) {
+                    const std::array corners = below ? std::array{p, r, q} : std::array{p, q, r};
+                    roof.indices.insert(roof.indices.end(), corners.begin(), corners.end());
+                }
+            }
+        }
+    }
+    std::array<std::size_t, 2> dark{};
+    std::size_t light = 0;
+    for (const bool one_sided : {false, true}) {
+        roof.one_sided = one_sided;
+        const PatchRelief patch = make_patch_relief(roof, hemisphere, 0, limits);
+        std::mt19937 random(4);
+        for (int k = 0; k < 6; ++k) {
+            const SeenWindow seen = drawn(patch, seeded_eye(hemisphere, 0, random), 96);
+            for (const glm::u8vec4& colour : seen.colours.texels) {
+                dark.at(one_sided) += colour.a != 0 && colour.r < 150 ? 1U : 0U;
+                light += colour.r >= 150 ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_GT(light, 50'000U);
+    EXPECT_GT(dark[0], 100U) << "the roof is thick enough for both sides: this proves nothing";
+    EXPECT_EQ(dark[1], 0U);
 }
 
 } // namespace

@@ -12,6 +12,8 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <random>
 #include <vector>
@@ -46,5 +48,31 @@ struct SeenWindow {
 [[nodiscard]] SeenWindow ray_cast(const TriangleWorld& world, const glm::dvec3& eye, int px);
 /// Drawn as a relief on a prop with one face, the window.
 [[nodiscard]] SeenWindow drawn(const PatchRelief& patch, const glm::dvec3& eye, int px, int samples = 1);
+
+/// In which order a maker of patches makes all of them; `calls`: of its `step`.
+template <typename Maker> struct MakingOrder {
+    std::vector<std::size_t> patches;
+    std::size_t calls = 0;
+
+    explicit MakingOrder(Maker& maker) {
+        for (bool more = true; more; ++calls) {
+            more = maker.step();
+            for (std::size_t patch = 0; patch < patch_count; ++patch) {
+                if (maker.patch(patch) && std::find(patches.begin(), patches.end(), patch) == patches.end()) {
+                    patches.push_back(patch);
+                }
+            }
+        }
+    }
+    /// All patches, none before one that is nearer to the first.
+    [[nodiscard]] bool is_by_angle(const Hemisphere& hemisphere) const {
+        return patches.size() == patch_count &&
+               std::is_sorted(patches.begin(), patches.end(), [&](std::size_t a, std::size_t b) {
+                   const glm::dvec3 first = hemisphere.middle_of(patches.front());
+                   return glm::dot(first, hemisphere.middle_of(a)) >
+                          glm::dot(first, hemisphere.middle_of(b)) + 1e-12;
+               });
+    }
+};
 
 } // namespace frustumscreen::ldi

@@ -1,12 +1,16 @@
 // A patch's points against the splatting of the same depth pixels in 64 bits, and against the rasterizer.
 #include "app/ldi/patch_layers.h"
 #include "app/ldi/point_patch.h"
+#include "app/ldi/seen_points.h"
 #include "app/ldi/triangle_rasterizer.h"
+#include "tests/ldi/patch_scene.h"
 #include "tests/ldi/worlds.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -102,6 +106,39 @@ TEST_P(PointPatches, AreEqualWithAllInstructions) {
         const DepthPicture best = splatted(patch, eye);
         EXPECT_EQ(plain.colours, best.colours);
         EXPECT_EQ(plain.nearness, best.nearness);
+    }
+}
+
+TEST_P(PointPatches, ThatNoEyeSeesAreLeftOut) {
+    SeenPoints maker(patch, hemisphere, GetParam(), point_view);
+    while (maker.step()) {
+    }
+    const PointPatch seen = maker.take();
+    EXPECT_LT(seen.places.size(), patch.places.size());
+    ASSERT_EQ(seen.seen.size(), seen.places.size() / block_points);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> share(min_eye_share, max_eye_share);
+    std::size_t skipped = 0;
+    std::size_t pixels = 0;
+    std::size_t holes = 0;
+    for (int k = 0; k < 40; ++k) {
+        const glm::dvec3 eye = share(random) * seeded_eye(hemisphere, GetParam(), random);
+        const CellMask cell = seen.cells.cell_of(eye);
+        ASSERT_EQ(std::popcount(cell), 1);
+        skipped += static_cast<std::size_t>(std::count_if(
+            seen.seen.begin(), seen.seen.end(), [cell](CellMask cells) { return (cells & cell) == 0; }));
+        const DepthPicture all = splatted(patch, eye);
+        const DepthPicture some = splatted(seen, eye);
+        for (std::size_t pixel = 0; pixel < all.colours.size(); ++pixel) {
+            pixels += all.colours[pixel].a != 0 ? 1 : 0;
+            holes += all.colours[pixel].a != 0 && some.nearness[pixel] < 0.98F * all.nearness[pixel] ? 1 : 0;
+        }
+    }
+    EXPECT_GT(skipped, seen.seen.size()); // of 40 times as many
+    EXPECT_LE(holes, pixels / 200);
+    for (const glm::dvec3& beyond :
+         {glm::dvec3(0.0, 0.0, 0.1), glm::dvec3(0.0, 0.0, 2.0), glm::dvec3(1.0, 0.0, 0.1)}) {
+        EXPECT_EQ(seen.cells.cell_of(beyond), all_cells);
     }
 }
 

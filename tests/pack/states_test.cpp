@@ -40,6 +40,15 @@ TEST(States, a_pack_written_and_read_has_the_same_states) {
     EXPECT_TRUE(check_world(**read));
 }
 
+TEST(States, of_a_pack_with_a_world_are_written_again_byte_for_byte) {
+    Pack pack = samples::pack_with_world();
+    ASSERT_TRUE(put_states(pack, three_states()));
+    const Bytes bytes = samples::bytes_of(pack);
+    const Result<VerifiedPack> read = verify_pack(bytes);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(samples::bytes_of(**read), bytes);
+}
+
 TEST(States, none_leave_a_pack_as_it_is_to_the_byte) {
     const Pack before = samples::pack_with_world();
     Pack after = before;

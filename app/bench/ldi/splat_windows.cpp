@@ -5,6 +5,7 @@
 #include "app/ldi/patch_layers.h"
 #include "app/ldi/peers.h"
 #include "app/ldi/point_patch.h"
+#include "app/ldi/seen_points.h"
 #include "app/ldi/triangle_rasterizer.h"
 
 #include <array>
@@ -49,6 +50,22 @@ std::vector<ldi::LayeredDepth> all_patches(const WindowSet& set, const ldi::Hemi
     }
     return patches;
 }
+/// The point that each pixel shows; NaN: none.
+image::ImageFloat points_in(const ldi::DepthPicture& picture) {
+    const ldi::PictureMap map(picture.camera);
+    image::ImageFloat points(picture.camera.width, picture.camera.height,
+                             glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    for (int y = 0; y < points.height; ++y) {
+        for (int x = 0; x < points.width; ++x) {
+            const float nearness = picture.nearness[picture.at(x, y)];
+            if (nearness > 0.0F) {
+                points.at(x, y) = glm::vec3(map.point(x + 0.5, y + 0.5, static_cast<double>(nearness)));
+            }
+        }
+    }
+    return points;
+}
+
 class Splatted final : public WindowTechnique {
 public:
     using Splat = std::function<void(const glm::dvec3& eye_m, ldi::DepthPicture& picture)>;
@@ -62,18 +79,7 @@ public:
     }
     [[nodiscard]] image::ImageFloat hit_points(const glm::dvec3& eye_m) override {
         draw(eye_m);
-        const ldi::PictureMap map(picture_.camera);
-        image::ImageFloat points(set_.pixels(), set_.pixels(),
-                                 glm::vec3(std::numeric_limits<float>::quiet_NaN()));
-        for (int y = 0; y < points.height; ++y) {
-            for (int x = 0; x < points.width; ++x) {
-                const float nearness = picture_.nearness[picture_.at(x, y)];
-                if (nearness > 0.0F) {
-                    points.at(x, y) = glm::vec3(map.point(x + 0.5, y + 0.5, static_cast<double>(nearness)));
-                }
-            }
-        }
-        return points;
+        return points_in(picture_);
     }
     [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
     [[nodiscard]] double make_ms() const override { return make_ms_; }
@@ -94,6 +100,43 @@ template <typename Values> std::uint64_t sum_of_bytes(const Values& values) {
     }
     return sum;
 }
+
+class Ours final : public WindowTechnique {
+public:
+    Ours(WindowSet& set, const ldi::Hemisphere& hemisphere, std::vector<ldi::PointPatch> patches,
+         double make_ms)
+        : set_(set), hemisphere_(hemisphere), patches_(std::move(patches)), make_ms_(make_ms) {}
+    [[nodiscard]] std::string name() const override { return "ours"; }
+    void draw(const glm::dvec3& eye_m) override {
+        const std::span<const std::uint64_t> words = splatter_.draw(patch_of(eye_m), camera_at(eye_m));
+        codes_.resize(words.size());
+        ldi::colours_of(words, codes_);
+        set_.show(codes_);
+    }
+    [[nodiscard]] image::ImageFloat hit_points(const glm::dvec3& eye_m) override {
+        ldi::DepthPicture picture;
+        picture.begin(camera_at(eye_m));
+        splatter_.draw(patch_of(eye_m), picture);
+        return points_in(picture);
+    }
+    [[nodiscard]] std::uint64_t bytes() const override { return sum_of_bytes(patches_); }
+    [[nodiscard]] double make_ms() const override { return make_ms_; }
+
+private:
+    [[nodiscard]] const ldi::PointPatch& patch_of(const glm::dvec3& eye_m) const {
+        return patches_[nearest_patch(hemisphere_, eye_m)];
+    }
+    [[nodiscard]] ldi::PictureCamera camera_at(const glm::dvec3& eye_m) const {
+        return ldi::camera_through_window(eye_m, half_extent_m, set_.pixels(), set_.pixels());
+    }
+
+    WindowSet& set_;
+    ldi::Hemisphere hemisphere_;
+    std::vector<ldi::PointPatch> patches_;
+    double make_ms_;
+    ldi::PointSplatter splatter_;
+    std::vector<glm::u8vec4> codes_;
+};
 
 /// A patch's depth pixels, each as a point as large as its part of the surface. The pixel's slope extends the point along the ray; a
 /// point is at most four pixels wide.
@@ -157,18 +200,14 @@ std::unique_ptr<WindowTechnique> make_multi_ldi(WindowSet& set) {
 std::unique_ptr<WindowTechnique> make_window_ours(WindowSet& set) {
     const double begun_ms = cpu_now_ms();
     const ldi::Hemisphere hemisphere(frozen_from_m);
-    auto patches = std::make_shared<std::vector<ldi::PointPatch>>();
+    std::vector<ldi::PointPatch> patches;
     for (const ldi::LayeredDepth& layers : all_patches(set, hemisphere, our_margin)) {
-        patches->push_back(ldi::point_patch(layers));
+        ldi::SeenPoints seen(ldi::point_patch(layers), hemisphere, patches.size(), view_of(set, our_margin));
+        while (seen.step()) {
+        }
+        patches.push_back(seen.take());
     }
-    const double make_ms = cpu_now_ms() - begun_ms;
-    return std::make_unique<Splatted>(
-        set, "ours",
-        [hemisphere, patches, splatter = std::make_shared<ldi::PointSplatter>()](const glm::dvec3& eye_m,
-                                                                                 ldi::DepthPicture& picture) {
-            splatter->draw((*patches)[nearest_patch(hemisphere, eye_m)], picture);
-        },
-        sum_of_bytes(*patches), make_ms);
+    return std::make_unique<Ours>(set, hemisphere, std::move(patches), cpu_now_ms() - begun_ms);
 }
 
 std::unique_ptr<WindowTechnique> make_single_ldi(WindowSet& set) {

@@ -75,6 +75,7 @@ WindowScene make_window_scene(std::size_t triangles, std::uint64_t seed) {
     world->indices = std::move(site.indices);
     world->texture_places = std::move(site.texture_places);
     world->texture = site.texture;
+    world->one_sided = true; // the site's surfaces are closed, and the exhibit's plan culls backs
     scene.world = std::move(world);
     return scene;
 }

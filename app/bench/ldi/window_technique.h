@@ -3,7 +3,8 @@
 /// geometry         the world's triangles again, culled and drawn by the exhibit's plan and renderer; nothing is made.
 /// geometry_lod     the same with the coarsest of meshoptimizer's levels that errs by less than half a window pixel.
 /// relief_pack      the exhibit's own relief, as the bake makes it, in the directions of a frustum's faces.
-/// ours             the depth pixels of a patch as points, warped eight at a time with a depth test (app/ldi/point_patch.h).
+/// ours             the depth pixels of a patch that an eye of its cell sees, as points that are warped eight at a time with a depth test
+///                  (app/ldi/seen_points.h, point_patch.h).
 /// patch_relief     the patch as a block relief (app/ldi/patch_relief.h), drawn as the exhibit draws a relief.
 /// patch_relief_2px, _4px  the same with texels of two and four pixels.
 /// multi_ldi_paper  the report's: a layered depth image for each patch, splatted in McMillan's order.
