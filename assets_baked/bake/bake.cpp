@@ -10,6 +10,7 @@
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
 #include "assets_baked/bake/reduction_error.h"
+#include "assets_baked/bake/seen_region.h"
 #include "assets_baked/bake/simplify.h"
 #include "assets_baked/bake/table_picture.h"
 #include "assets_baked/bake/texture_bake.h"
@@ -77,6 +78,17 @@ public:
     [[nodiscard]] Result<void> check() const { return check_surface(welded_); }
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
+    /// In the box.
+    void add_curtains(SourceMesh& mesh) const {
+        for (const CurtainTriangle& curtain : curtains_) {
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (const glm::dvec3& corner : curtain) {
+                mesh.positions.emplace_back(frame_.box_from_file * glm::dvec4(corner, 1.0));
+            }
+            mesh.triangles.push_back({first, first + 1, first + 2});
+            mesh.triangle_materials.push_back(0);
+        }
+    }
     [[nodiscard]] const pack::LevelError& reduction() const { return reduction_; }
 
     /// From fine to coarse.
@@ -191,14 +203,7 @@ private:
             return visible_sides(mesh, source_, options_.prop.zone);
         }
         SourceMesh own = as_source(mesh);
-        for (const CurtainTriangle& curtain : curtains_) {
-            const auto first = static_cast<std::uint32_t>(own.positions.size());
-            for (const glm::dvec3& corner : curtain) {
-                own.positions.emplace_back(frame_.box_from_file * glm::dvec4(corner, 1.0));
-            }
-            own.triangles.push_back({first, first + 1, first + 2});
-            own.triangle_materials.push_back(0);
-        }
+        add_curtains(own);
         const std::vector<glm::dvec3> own_points = own.positions;
         return visible_sides(mesh, SourceScene(own, own_points), options_.prop.zone);
     }
@@ -391,7 +396,13 @@ Result<pack::Pack> bake_region(const SourceMesh& mesh, const BakeOptions& option
     begin_stage(options, stages::choice);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
-    pack::SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+    SourceMesh curtain_mesh = as_source({});
+    bakery.add_curtains(curtain_mesh);
+    const SourceScene curtain_scene(curtain_mesh, curtain_mesh.positions);
+    pack::SeenErrors seen =
+        options.of_site
+            ? seen_region_errors(pack, bakery.source(), curtain_scene, options.prop.zone, options.measuring)
+            : seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
     add_reduction(bakery.reduction(), seen);
     pack::put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
