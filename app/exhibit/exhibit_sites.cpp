@@ -1,5 +1,6 @@
 // A site in the prop: which region the button goes to.
 #include "app/exhibit/exhibit.h"
+#include "app/exhibit/site_places.h"
 
 namespace frustumscreen::exhibit {
 
@@ -36,7 +37,12 @@ void Exhibit::place_map(MonotonicTime now, const tracking::TrackedState& tracked
     input.size_m = glm::dvec2(site_map_m);
     input.light = shown.caption_brightness * drawn.brightness;
     if (presentation.site.view && !drawn.attracts) {
-        input.title = TitleIndex{.artifact = shown.artifact, .behaviour = 0, .language = 0};
+        input.title = TitleIndex{.artifact = shown.artifact, .behaviour = site_map_title, .language = 0};
+    } else if (presentation.site.marked && windows_ && !drawn.attracts) {
+        input.title = TitleIndex{.artifact = shown.artifact,
+                                 .behaviour = site_preview_title + *presentation.site.marked,
+                                 .language = 0};
+        input.size_m = place_.windows->size_m;
     }
     Obstacles obstacles = obstacles_of(presentation);
     if (presentation.title) {

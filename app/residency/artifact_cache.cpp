@@ -43,6 +43,11 @@ ArtifactCache::ArtifactCache(ArtifactCacheSetUp set_up, PreparedArtifact first)
                 records_.push_back({text_bytes(of.texts.entry, part, language, set_up_.style)});
             }
         }
+        first_pages_.push_back(items_.size());
+        for (const PageName& page : of.world ? pages_of(*of.world) : std::vector<PageName>()) {
+            items_.push_back({artifact, std::nullopt, 0, page});
+            records_.push_back({expected_page_bytes(*of.world, page, texture_bytes)});
+        }
     }
     loaded_.resize(items_.size());
     receive(0, std::move(first));
@@ -88,6 +93,19 @@ void ArtifactCache::add_text(Queue& queue, std::size_t artifact, TextPart part,
     }
 }
 
+void ArtifactCache::add_pages(Queue& queue, std::size_t artifact) const {
+    const RunCells* const cells = find_cells(artifact);
+    const std::size_t end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
+    const auto pages = std::span(items_).first(end).subspan(first_pages_[artifact]);
+    for (const std::size_t place :
+         cells != nullptr ? cells->wanted_pages() : std::span<const std::size_t>()) {
+        const auto found =
+            std::lower_bound(pages.begin(), pages.end(), place,
+                             [](const Item& item, std::size_t wanted) { return item.page->place < wanted; });
+        queue.add(first_pages_[artifact] + static_cast<std::size_t>(found - pages.begin()));
+    }
+}
+
 /// The artifacts shown and waited for. Captions come first, because they are small and are shown before their
 /// artifact.
 ArtifactCache::Queue ArtifactCache::needed(const CacheRequest& request) const {
@@ -109,6 +127,7 @@ ArtifactCache::Queue ArtifactCache::needed(const CacheRequest& request) const {
 /// once.
 ArtifactCache::Queue ArtifactCache::wanted(const CacheRequest& request) const {
     Queue wanted;
+    add_pages(wanted, request.shown);
     for (std::size_t k = 1; k < request.wanted.size(); ++k) {
         wanted.add(levels_item(request.wanted[k]));
         add_text(wanted, request.wanted[k], TextPart::Caption, request.language);
@@ -126,6 +145,10 @@ Result<ArtifactReader::Prepared> ArtifactCache::prepare(std::size_t item,
     const Item& of = items_[item];
     if (of.part) {
         return prepare_texts(known(of.artifact), *of.part, of.language, set_up_.style, given_up);
+    }
+    if (of.page) {
+        TRY(PreparedPage page, prepare_page(known(of.artifact).file, *known(of.artifact).world, *of.page));
+        return page;
     }
     return prepare_artifact(known(of.artifact), set_up_.technique, set_up_.deadline_ms, given_up);
 }
@@ -172,17 +195,21 @@ void ArtifactCache::step_once(render::GpuStore& store, const CacheRequest& reque
     const Queue needs = needed(request);
     const Queue wants = wanted(request);
     const ResidencyStep next = next_step(records_, needs.items(), wants.items(), set_up_.budget_bytes);
-    if (next.release) {
-        release(store, *next.release);
-    } else if (reader_) {
-        reader_->request(next.load);
+    const bool is_seen = next.release && !release_if_unseen(store, *next.release);
+    std::optional<std::size_t> load = next.load;
+    if (is_seen) { // others go first; what is needed comes all the same
+        records_[*next.release].last_shown = shows_;
+        load = next_step(records_, needs.items(), {}, std::numeric_limits<std::uint64_t>::max()).load;
+    }
+    if (reader_ && (!next.release || is_seen)) {
+        reader_->request(load);
     }
     upload(store, needs.items(), wants.items());
     bool arriving = false;
     for (std::size_t item = 0; item < items_.size(); ++item) {
         arriving = arriving || arrives(item);
     }
-    steady_ = !next.release && (!next.load || !reader_) && !arriving;
+    steady_ = (!next.release || is_seen) && (!load || !reader_) && !arriving;
 }
 
 bool ArtifactCache::has(const CacheRequest& request) const {
@@ -218,6 +245,7 @@ void ArtifactCache::note_shown(const CacheRequest& request) {
     shown.add(levels_item(request.shown));
     add_text(shown, request.shown, TextPart::Caption, request.shown_language);
     add_text(shown, request.shown, TextPart::NarrationSequencer, request.shown_language);
+    add_pages(shown, request.shown);
     for (const std::size_t item : shown.items()) {
         records_[item].last_shown = shows_;
     }
@@ -233,6 +261,12 @@ void ArtifactCache::receive(std::size_t item, Result<ArtifactReader::Prepared> p
     }
     if (auto* const levels = std::get_if<PreparedArtifact>(&*prepared)) {
         loaded_[item] = std::make_unique<Loaded>(LoadedLevels(std::move(*levels)));
+    } else if (auto* const page = std::get_if<PreparedPage>(&*prepared)) {
+        if (this->levels(items_[item].artifact) == nullptr) {
+            return; // it went meanwhile
+        }
+        loaded_[item] =
+            std::make_unique<Loaded>(LoadedPage(std::move(*page), known(items_[item].artifact).plan.eyes));
     } else {
         loaded_[item] = std::make_unique<Loaded>(LoadedTexts(std::move(std::get<TextPictures>(*prepared))));
     }
@@ -270,17 +304,34 @@ void ArtifactCache::upload(render::GpuStore& store, std::span<const std::size_t>
 
 Result<void> ArtifactCache::upload(render::GpuStore& store, std::size_t item, std::uint64_t max_bytes) {
     TRY_VOID(std::visit([&](auto& each) { return each.upload(store, max_bytes); }, *loaded_[item]));
-    if (!items_[item].part && !arrives(item)) {
-        states_[items_[item].artifact] = exhibit::ArtifactState::Ready;
+    const std::size_t artifact = items_[item].artifact;
+    if (items_[item].is_levels() && !arrives(item)) {
+        states_[artifact] = exhibit::ArtifactState::Ready;
+    }
+    if (const LoadedPage* const page = std::get_if<LoadedPage>(loaded_[item].get());
+        page != nullptr && page->ready()) {
+        page->give_to(*levels(artifact)->artifact.cells, store);
     }
     return {};
 }
 
-/// Releasing an artifact's levels also releases its texts.
+bool ArtifactCache::release_if_unseen(render::GpuStore& store, std::size_t item) {
+    const std::optional<PageName>& page = items_[item].page;
+    if (page && !arrives(item) && !levels(items_[item].artifact)->artifact.cells->let_go(page->place)) {
+        return false;
+    }
+    release(store, item);
+    return true;
+}
+
+/// Releasing an artifact's levels also releases its texts and pages.
 void ArtifactCache::release(render::GpuStore& store, std::size_t item) {
     const std::size_t artifact = items_[item].artifact;
     std::size_t end = item + 1;
-    if (const LoadedLevels* const gone = items_[item].part ? nullptr : levels(artifact)) {
+    if (items_[item].page && !arrives(item)) {
+        levels(artifact)->artifact.cells->take_page(items_[item].page->place);
+    }
+    if (const LoadedLevels* const gone = items_[item].is_levels() ? levels(artifact) : nullptr) {
         const LevelState state = gone->artifact.levels.state();
         past_switches_ += gone->switches();
         past_ignored_times_ += state.ignored_times;
@@ -298,7 +349,7 @@ void ArtifactCache::release(render::GpuStore& store, std::size_t item) {
 
 void ArtifactCache::leave_out(std::size_t item, const std::string& reason) {
     records_[item].left_out = true;
-    if (!items_[item].part) {
+    if (items_[item].is_levels()) {
         const std::size_t artifact = items_[item].artifact;
         states_[artifact] = exhibit::ArtifactState::Unusable;
         auto more = std::make_shared<std::vector<library::UnshownPack>>(*left_out_);
@@ -308,8 +359,11 @@ void ArtifactCache::leave_out(std::size_t item, const std::string& reason) {
 }
 
 void ArtifactCache::say_left_out(std::size_t item, const std::string& reason) const {
-    say_line(set_up_.program,
-             fmt::format("{}: {}", items_[item].part ? "texts left out" : "left out", reason));
+    say_line(set_up_.program, fmt::format("{}: {}",
+                                          items_[item].part   ? "texts left out"
+                                          : items_[item].page ? "a region's finer level left out"
+                                                              : "left out",
+                                          reason));
 }
 
 LoadedLevels* ArtifactCache::levels(std::size_t artifact) const {

@@ -8,6 +8,8 @@
 ///          comes after it, only in the chosen language. Artifacts that may be chosen next bring their
 ///          captions; the chosen one's captions in the other languages come last. Texts stay while they are
 ///          shown and while the budget allows, and no longer than their artifact.
+/// Pages    of the site on show (RunCells) come after all that is needed, while the budget allows; a page that a picture or a window still
+///          shows stays until that has ended.
 /// Budget   counts an artifact's GPU memory and main memory from the moment that it is prepared. While one is
 ///          read, its file's parts and one level of it are needed in addition.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context
@@ -114,12 +116,15 @@ public:
     [[nodiscard]] std::uint64_t ignored_times() const;
 
 private:
-    using Loaded = std::variant<LoadedLevels, LoadedTexts>;
+    using Loaded = std::variant<LoadedLevels, LoadedTexts, LoadedPage>;
     /// A unit that is loaded and released as a whole.
     struct Item {
         std::size_t artifact = 0;
-        std::optional<TextPart> part; ///< nullopt: the levels
+        std::optional<TextPart> part; ///< nullopt: the levels, or a page
         std::size_t language = 0;     ///< of the part
+        std::optional<PageName> page = std::nullopt;
+
+        [[nodiscard]] bool is_levels() const { return !part && !page; }
     };
     /// Items in order of urgency.
     class Queue {
@@ -129,7 +134,9 @@ private:
 
     private:
         /// Beside them the shown and the wanted artifacts with their texts (exhibit::WantedArtifacts).
-        std::array<std::size_t, 8 + 2 * (settings::max_windows + 1) + pack::max_languages> items_{};
+        std::array<std::size_t,
+                   8 + 2 * (settings::max_windows + 1) + pack::max_languages + 2 * RunCells::max_wanted_pages>
+            items_{};
         std::size_t count_ = 0;
     };
 
@@ -137,6 +144,8 @@ private:
     [[nodiscard]] std::size_t text_item(std::size_t artifact, TextPart part, std::size_t language) const;
     /// Adds nothing if the artifact has no such text.
     void add_text(Queue& queue, std::size_t artifact, TextPart part, std::string_view language) const;
+    /// The pages that the shown artifact wants.
+    void add_pages(Queue& queue, std::size_t artifact) const;
     [[nodiscard]] Queue needed(const CacheRequest& request) const;
     [[nodiscard]] Queue wanted(const CacheRequest& request) const;
     [[nodiscard]] Result<ArtifactReader::Prepared> prepare(std::size_t item,
@@ -150,6 +159,8 @@ private:
                 std::span<const std::size_t> wanted);
     [[nodiscard]] Result<void> upload(render::GpuStore& store, std::size_t item, std::uint64_t max_bytes);
     void release(render::GpuStore& store, std::size_t item);
+    /// False: it is a page that is still shown.
+    bool release_if_unseen(render::GpuStore& store, std::size_t item);
     void leave_out(std::size_t item, const std::string& reason);
     void say_left_out(std::size_t item, const std::string& reason) const;
     /// Null if they are not loaded.
@@ -157,7 +168,8 @@ private:
 
     ArtifactCacheSetUp set_up_;
     std::vector<Item> items_;
-    std::vector<std::size_t> first_items_;        ///< by artifact: its levels; its texts follow
+    std::vector<std::size_t> first_items_; ///< by artifact: its levels; its texts follow, then its pages
+    std::vector<std::size_t> first_pages_; ///< by artifact
     std::vector<std::unique_ptr<Loaded>> loaded_; ///< by item; null: not loaded
     std::vector<ResidentItem> records_;           ///< by item
     std::vector<exhibit::ArtifactState> states_;

@@ -1,4 +1,4 @@
-/// The thread that reads an artifact or some of its texts, one at a time.
+/// The thread that reads an artifact, some of its texts or a page of a site, one at a time.
 ///
 /// Threads  as BackgroundReader.
 /// Errors   those of `prepare`, as an answer.
@@ -11,6 +11,6 @@
 
 namespace frustumscreen::residency {
 
-using ArtifactReader = BackgroundReader<std::variant<TextPictures, PreparedArtifact>>;
+using ArtifactReader = BackgroundReader<std::variant<TextPictures, PreparedArtifact, PreparedPage>>;
 
 } // namespace frustumscreen::residency

@@ -7,22 +7,48 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace frustumscreen::residency {
 
 namespace {
 
-/// The ways in which a quality level draws the cell, each once, best first.
-std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan) {
-    std::vector<scene::QualityLevel> ways;
-    for (const scene::QualityLevel& quality_level : plan.quality_levels) {
-        if (std::none_of(ways.begin(), ways.end(),
-                         [&](const scene::QualityLevel& way) { return way.shows_as(quality_level); })) {
-            ways.push_back(quality_level);
-        }
+/// Reads a level of a region alone.
+Result<PreparedLevel> read_level(const std::filesystem::path& file, const KnownWorld& known,
+                                 const KnownCell& cell, std::uint32_t level) {
+    TRY(const pack::VerifiedPack pack,
+        pack::load_cell(file, known.world.cells[cell.cell],
+                        [&](const pack::PackOutline& own) -> Result<std::vector<std::uint32_t>> {
+                            if (own != cell.outline) {
+                                return bad_input(
+                                    "show.region_changed",
+                                    "the pack has changed since the exhibit was started; start it again");
+                            }
+                            return std::vector{level};
+                        }));
+    return prepare_level(*pack, level, cell.plan);
+}
+
+/// Reads the coarsest level; the finer ones are pages.
+Result<void> prepare_region(const std::filesystem::path& file, const KnownWorld& known, const KnownCell& cell,
+                            const std::function<bool()>& given_up, PreparedCells& cells) {
+    if (given_up()) {
+        return bad_input("show.cells_not_wanted", "not wanted any more");
     }
-    return ways;
+    const std::vector<scene::QualityLevel> ways = ways_of(cell.plan);
+    for (const scene::QualityLevel& way : std::span(ways).first(ways.size() - 1)) {
+        PreparedLevel& page = cells.levels.emplace_back();
+        page.use.level = way.level;
+        page.use.triangles = cell.outline.levels[way.level].triangles;
+        page.seen = cell.plan.seen[way.level];
+        page.box_size = cell.outline.description.box_size;
+        page.samples = cell.outline.description.samples;
+    }
+    TRY(PreparedLevel coarsest, read_level(file, known, cell, ways.back().level));
+    cells.levels.push_back(std::move(coarsest));
+    cells.options.push_back(ways.size());
+    return {};
 }
 
 /// Reads the cell's pack once for all ways of drawing it.
@@ -62,6 +88,36 @@ Result<void> prepare_cell(const std::filesystem::path& file, const KnownWorld& k
 }
 
 } // namespace
+
+std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan) {
+    std::vector<scene::QualityLevel> ways;
+    for (const scene::QualityLevel& quality_level : plan.quality_levels) {
+        if (std::none_of(ways.begin(), ways.end(),
+                         [&](const scene::QualityLevel& way) { return way.shows_as(quality_level); })) {
+            ways.push_back(quality_level);
+        }
+    }
+    return ways;
+}
+
+std::vector<PageName> pages_of(const KnownWorld& known) {
+    std::vector<PageName> pages;
+    std::size_t place = 0;
+    for (std::size_t k = 0; known.is_site && k < known.drawn.size(); ++k) {
+        const std::vector<scene::QualityLevel> ways = ways_of(known.drawn[k].plan);
+        for (std::size_t way = 0; way + 1 < ways.size(); ++way) {
+            pages.push_back({k, ways[way].level, place + way});
+        }
+        place += ways.size();
+    }
+    return pages;
+}
+
+Result<PreparedPage> prepare_page(const std::filesystem::path& file, const KnownWorld& known,
+                                  const PageName& page) {
+    TRY(PreparedLevel level, read_level(file, known, known.drawn[page.drawn], page.level));
+    return PreparedPage{page.place, std::move(level)};
+}
 
 Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& settings,
                                                      const std::filesystem::path& file,
@@ -127,7 +183,8 @@ Result<PreparedCells> prepare_cells(const std::filesystem::path& file, const Kno
                                     const std::function<bool()>& given_up) {
     PreparedCells cells;
     for (const KnownCell& cell : known.drawn) {
-        TRY_VOID(prepare_cell(file, known, cell, given_up, cells));
+        TRY_VOID(known.is_site ? prepare_region(file, known, cell, given_up, cells)
+                               : prepare_cell(file, known, cell, given_up, cells));
     }
     return cells;
 }

@@ -1,6 +1,8 @@
 /// The cells of an artifact that its behaviours move, or that are drawn at rest: how each is drawn, before any of it is
 /// loaded, and their levels, read and ready to upload.
 ///
+/// Site     of a region, only the coarsest level is read with its artifact; the others are pages, each read when it is wanted
+///          (RunCells::wanted_pages).
 /// Memory   before the artifact is about to be shown, only the manifests: no curves. While cells are prepared, one cell's pack at a time.
 /// Threads  pure except for reading the file; any.
 /// Errors   as load_pack and plan_cell; a pack that has changed since its plan was made.
@@ -48,6 +50,24 @@ open_cells(const settings::Settings& settings, const std::filesystem::path& file
 
 /// The needs of a renderer for the whole artifact and all of its cells, which fade into each other.
 [[nodiscard]] scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& whole);
+
+/// The ways in which a quality level draws a cell, each once, best first.
+[[nodiscard]] std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan);
+
+/// A level of a region, read after its artifact.
+struct PageName {
+    std::size_t drawn = 0;   ///< index into KnownWorld::drawn
+    std::uint32_t level = 0; ///< of the region's pack
+    std::size_t place = 0;   ///< index into PreparedCells::levels
+};
+/// None for a world that is no site.
+[[nodiscard]] std::vector<PageName> pages_of(const KnownWorld& known);
+struct PreparedPage {
+    std::size_t place = 0;
+    PreparedLevel level;
+};
+[[nodiscard]] Result<PreparedPage> prepare_page(const std::filesystem::path& file, const KnownWorld& known,
+                                                const PageName& page);
 
 /// The levels of all cells, one cell after another.
 struct PreparedCells {

@@ -40,6 +40,24 @@ std::uint64_t LoadedLevels::bytes() const {
            (artifact.cells ? artifact.cells->bytes() : 0);
 }
 
+LoadedPage::LoadedPage(PreparedPage prepared, std::size_t eyes) : page_(std::move(prepared)) {
+    const scene::LevelTriangles& triangles = *page_.level.triangles;
+    bytes_ = page_.level.use.planned_gpu_bytes + scene::bytes_of(triangles) +
+             eyes * 2 * sizeof(std::uint32_t) * triangles.indices.size();
+    upload_.emplace(std::move(page_.level.data));
+    page_.level.data = {};
+}
+
+Result<void> LoadedPage::upload(render::GpuStore& store, std::uint64_t max_bytes) {
+    TRY_VOID(upload_->go_on(max_bytes));
+    if (upload_->done()) {
+        drawable_ = store.keep(*std::move(upload_));
+        upload_.reset();
+        ready_ = true;
+    }
+    return {};
+}
+
 LoadedTexts::LoadedTexts(TextPictures pictures) : pictures_(std::move(pictures)) {
     textures_.reserve(pictures_.size());
     for (const image::Image<std::uint8_t>& picture : pictures_) {

@@ -1,4 +1,4 @@
-/// An artifact's data in memory, or on its way to the GPU's memory: its levels with those of its cells, or some of its
+/// An artifact's data in memory, or on its way to the GPU's memory: its levels with those of its cells, a page of a site, or some of its
 /// texts.
 ///
 /// Units    bytes.
@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace frustumscreen::residency {
@@ -38,6 +39,30 @@ public:
 private:
     std::vector<render::LevelUpload> uploads_;
     std::size_t uploaded_ = 0; ///< levels, also of cells, that are in the store
+};
+
+/// A page of a site (RunCells), which its artifact's cells draw.
+class LoadedPage {
+public:
+    /// `eyes`: of the artifact's plan.
+    LoadedPage(PreparedPage prepared, std::size_t eyes);
+
+    [[nodiscard]] Result<void> upload(render::GpuStore& store, std::uint64_t max_bytes);
+    [[nodiscard]] bool ready() const { return ready_; }
+    void release(render::GpuStore& store) { store.release(drawable_); }
+    /// GPU memory and main memory, with its triangles' place in the frame's plans.
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    /// It is ready.
+    void give_to(RunCells& cells, const render::GpuStore& store) const {
+        cells.give_page(page_.place, page_.level, drawable_, store);
+    }
+
+private:
+    PreparedPage page_;
+    std::uint64_t bytes_ = 0;
+    std::optional<render::LevelUpload> upload_; ///< until it is ready
+    scene::Drawable drawable_;
+    bool ready_ = false;
 };
 
 class LoadedTexts {

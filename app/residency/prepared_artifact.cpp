@@ -43,15 +43,18 @@ std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
     return levels;
 }
 
+std::uint64_t expected_bytes(const pack::LevelOutline& level, std::uint64_t texture_bytes) {
+    constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
+    constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
+    return level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
+}
+
 /// The memory for the levels and reliefs that a plan reads.
 std::uint64_t expected_bytes(const pack::PackOutline& outline, const scene::ScenePlan& plan,
                              std::uint64_t texture_bytes) {
-    constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
-    constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
     std::uint64_t bytes = 0;
     for (const std::uint32_t number : plan.levels) {
-        const pack::LevelOutline& level = outline.levels[number];
-        bytes += level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
+        bytes += expected_bytes(outline.levels[number], texture_bytes);
     }
     for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
         const std::uint64_t relief = plan.reliefs[place].bytes;
@@ -119,7 +122,9 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
     }
     for (std::vector<PreparedLevel>* const prepared : {&levels, &cells.levels}) {
         for (PreparedLevel& level : *prepared) {
-            made.data.push_back(std::move(level.data));
+            if (level.triangles || level.data.relief) { // else it is a page
+                made.data.push_back(std::move(level.data));
+            }
         }
     }
     if (std::optional<scene::LevelData> mark = made.cells ? made.cells->take_mark_data() : std::nullopt) {
@@ -134,11 +139,18 @@ Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part, st
                       language, style, given_up);
 }
 
+std::uint64_t expected_page_bytes(const KnownWorld& world, const PageName& page,
+                                  std::uint64_t texture_bytes) {
+    return expected_bytes(world.drawn[page.drawn].outline.levels[page.level], texture_bytes);
+}
+
 std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes) {
     std::uint64_t bytes = expected_bytes(known.outline, known.plan, texture_bytes);
     if (known.world) {
         for (const KnownCell& cell : known.world->drawn) {
-            bytes += expected_bytes(cell.outline, cell.plan, texture_bytes);
+            bytes += known.world->is_site
+                         ? expected_bytes(cell.outline.levels[ways_of(cell.plan).back().level], texture_bytes)
+                         : expected_bytes(cell.outline, cell.plan, texture_bytes);
         }
     }
     if (!known.outline.description.hotspots.empty()) {

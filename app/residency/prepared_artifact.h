@@ -54,7 +54,11 @@ struct PreparedArtifact {
                                                  std::size_t language, const TextStyle& style,
                                                  const std::function<bool()>& given_up);
 
-/// Estimated bytes of the artifact's levels and of the triangles that hide its hotspots; `texture_bytes`: of
+/// Estimated bytes of a page of the artifact's site.
+[[nodiscard]] std::uint64_t expected_page_bytes(const KnownWorld& world, const PageName& page,
+                                                std::uint64_t texture_bytes);
+
+/// Estimated bytes of the artifact's levels, without pages, and of the triangles that hide its hotspots; `texture_bytes`: of
 /// one level's texture, estimated from other artifacts.
 [[nodiscard]] std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes);
 

@@ -62,7 +62,8 @@ double enough_to(const KnownWorld& known, const KnownCell& cell, const PreparedL
 }
 
 std::size_t indices_of(const PreparedLevel& level) {
-    return level.triangles ? level.triangles->indices.size() : 0;
+    const bool is_page = !level.triangles && !level.data.relief;
+    return level.triangles ? level.triangles->indices.size() : is_page ? 3 * level.use.triangles : 0;
 }
 
 } // namespace
@@ -86,7 +87,11 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
         std::array<std::size_t, 2> largest{};
         for (std::size_t option = 0; option < cells.options[k]; ++option) {
             const PreparedLevel& level = cells.levels[options_.size()];
-            uses_.push_back(level.use);
+            const bool there = level.triangles || level.data.relief;
+            uses_.push_back(there ? level.use : LevelUse{.level = level.use.level});
+            if (there) {
+                given_.push_back(options_.size());
+            }
             options_.push_back(
                 {.seen = level.seen,
                  .placed = {.triangles = level.triangles,
@@ -102,12 +107,20 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
                  .triangles = static_cast<double>(level.data.relief ? level.data.relief->blocks.size()
                                                                     : indices_of(level) / 6),
                  .is_enough = is_enough(plan, level),
-                 .enough_to = is_site_ ? enough_to(known, known.drawn[k], level) : 0.0});
+                 .enough_to = is_site_ ? enough_to(known, known.drawn[k], level) : 0.0,
+                 .there = there});
             largest.front() = std::max(largest.front(), indices_of(level));
             std::sort(largest.begin(), largest.end());
         }
         indices += largest[0] + largest[1];
+        cell.wanted = cell.shown =
+            cells.options[k] - 1; // the coarsest of a region; others choose before they draw
+        const pack::PackCell& own = known.world.cells[cell.number];
+        regions_.push_back({own.low, own.high});
     }
+    wanted_.reserve(max_wanted_pages);
+    by_pixels_.reserve(cells_.size());
+    targets_.resize(cells_.size());
     can_rasterize_all_ = true;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         std::size_t rasterized = 0;
@@ -139,13 +152,14 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
 }
 
 void RunCells::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
-    if (place == options_.size()) {
+    if (place == given_.size()) {
         mark_.drawable = drawable;
-        uses_[place].gpu_bytes = store.bytes(drawable);
+        uses_.back().gpu_bytes = store.bytes(drawable);
         return;
     }
-    options_[place].placed.drawable = drawable;
-    uses_[place].gpu_bytes = store.bytes(drawable);
+    const std::size_t option = given_[place];
+    options_[option].placed.drawable = drawable;
+    uses_[option].gpu_bytes = store.bytes(drawable);
 }
 
 Result<void> RunCells::add_layer(render::GpuStore& store, const ReadLayer& layer) {
@@ -153,6 +167,9 @@ Result<void> RunCells::add_layer(render::GpuStore& store, const ReadLayer& layer
         const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
         for (std::size_t option = cells_[k].first; option < end; ++option) {
             scene::PlacedLevel& placed = options_[option].placed;
+            if (is_page(option)) { // a torch does not light the part of a site
+                continue;
+            }
             TRY_VOID(residency::add_layer(store, layer.cells[k], uses_[option].level,
                                           placed.relief != nullptr, placed.drawable));
         }
@@ -161,8 +178,8 @@ Result<void> RunCells::add_layer(render::GpuStore& store, const ReadLayer& layer
 }
 
 void RunCells::release(render::GpuStore& store) {
-    for (const Option& option : options_) {
-        store.release(option.placed.drawable);
+    for (const std::size_t option : given_) {
+        store.release(options_[option].placed.drawable);
     }
     if (is_site_) {
         store.release(mark_.drawable);
@@ -171,7 +188,7 @@ void RunCells::release(render::GpuStore& store) {
 
 std::uint64_t RunCells::bytes() const {
     std::uint64_t bytes = curve_bytes(player_.behaviours());
-    for (std::size_t place = 0; place < options_.size(); ++place) {
+    for (const std::size_t place : given_) {
         const scene::PlacedLevel& placed = options_[place].placed;
         bytes += uses_[place].planned_gpu_bytes;
         if (!placed.relief) {
@@ -212,6 +229,10 @@ void RunCells::mark(const std::optional<world::RegionBox>& region) {
 
 bool RunCells::step(MonotonicTime now, double load) {
     poses_ = player_.step(now);
+    want_pages();
+    if (!shows_) {
+        parts_.clear(); // else the latest ones would keep their pages
+    }
     if (player_.moves() || drawn_at_rest_ || site_) {
         if (!shows_) {
             is_new_ = true;
@@ -329,14 +350,22 @@ void RunCells::choose(MonotonicTime now, int samples, const geometry::PropShape&
         chosen = rasterizes_all_ ? others : chosen;
         drawn = rasterizes_all_ ? rasterized : drawn;
     }
-    expected_ms_ = fixed_ms_ + 1e-3 * drawn.cost_us;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        cells_[k].wanted = chosen[k];
+        targets_[k] = nearest_there(cells_[k]);
+    }
+    if (is_site_) {
+        drawn = sum(targets_, offered_);
+    }
+    expected_ms_ =
+        drawn.cost_us < never ? fixed_ms_ + 1e-3 * drawn.cost_us : 0.0; // 0: nothing is learned from its time
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         Cell& cell = cells_[k];
         if (is_new_) {
-            cell.shown = chosen[k];
+            cell.shown = targets_[k];
             cell.coming.reset();
-        } else if (!cell.coming && cell.shown != chosen[k]) {
-            cell.coming = chosen[k];
+        } else if (!cell.coming && cell.shown != targets_[k]) {
+            cell.coming = targets_[k];
             cell.fade_start = now;
             ++switches_;
         }

@@ -15,6 +15,9 @@
 /// Site     of a site (pack_site.h) a part can be shown large (site_view.h). Then the cells are drawn, cut off by the prop's faces;
 ///          those that no face shows are left out. An error of a cell grows with the zoom, so finer levels come by the rule of cells that
 ///          are drawn at rest. The picture fades from the whole to the cells; the caller leaves the zoom at 1 for as long.
+/// Pages    of a site's region only the coarsest level comes with the artifact. The finer ones are pages: `wanted_pages` names those that
+///          the place needs, the caller gives them when they are in the store, and a cell fades to them. Until then, and where the
+///          memory is too small, the next coarser level that is there is drawn.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
 /// Errors   none.
@@ -33,6 +36,7 @@
 #include "app/world/site_view.h"
 #include "firmware_host/base/time.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -57,7 +61,19 @@ public:
     [[nodiscard]] Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer);
     /// The artifact's states, which windows show. `world`: with its curves.
     void add_states(const pack::PackWorld& world, std::span<const pack::PackState> states);
-    /// Removes all given levels from the store; drawing is then impossible.
+    static constexpr std::size_t max_wanted_pages = 64;
+    /// Pages for the next frames, by PreparedCells::levels, the most urgent first, also those that are there: of the regions that the
+    /// latest picture shows, largest first; then of the place that is travelled to and of its neighbours.
+    [[nodiscard]] std::span<const std::size_t> wanted_pages() const { return wanted_; }
+    /// A page is in the store.
+    void give_page(std::size_t place, const PreparedLevel& level, const scene::Drawable& drawable,
+                   const render::GpuStore& store);
+    /// Stops drawing a page, by a fade where it is drawn. True: nothing shows it any more, no window either, and it may leave the store; then call
+    /// `take_page`.
+    [[nodiscard]] bool let_go(std::size_t place);
+    void take_page(std::size_t place);
+
+    /// Removes all given levels from the store, without pages; drawing is then impossible.
     void release(render::GpuStore& store);
     /// GPU memory and main memory, by the plan.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -71,6 +87,15 @@ public:
     [[nodiscard]] world::Player& player() { return player_; }
     /// The part of a site that the next frames show; none, as at the beginning: the whole. Not for other artifacts.
     void show_site(const std::optional<world::SiteView>& view) { site_ = view; }
+    /// The region that is gone to, or may be next, and how large it will be.
+    struct Goal {
+        std::size_t region = 0; ///< of the site's
+        world::SiteView view;
+    };
+    void expect_site(const std::optional<Goal>& goal) { goal_ = goal; }
+    [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
+    /// Adds the site as the prop will show it there, each region by its coarsest level that is good enough and there.
+    void show_goal(std::vector<scene::Part>& parts) const;
     /// Marks a region of the miniature for the next frames; none: no mark.
     void mark(const std::optional<world::RegionBox>& region);
     /// The parts that RunLevels::draw draws beside the whole.
@@ -127,13 +152,16 @@ private:
         double triangles = 0.0; ///< or blocks
         bool is_enough = false; ///< within the tolerance, at the zoom of this frame
         double enough_to = 0.0; ///< of a site: the largest zoom at which it is
+        bool there = true;      ///< false: a page that is not in the store
+        bool leaves = false;    ///< a page that is not to be drawn any more
     };
     struct Cell {
         std::size_t number = 0;       ///< index into the player's cells
         std::size_t first = 0;        ///< of its options
         bool is_relief_alone = false; ///< it has rasterized reliefs and nothing else
         double pixels = 0.0;          ///< in this frame's picture of one eye
-        std::size_t shown = 0;        ///< index into its options
+        std::size_t wanted = 0;       ///< index into its options
+        std::size_t shown = 0;        ///< the same, and there
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };
@@ -145,6 +173,16 @@ private:
     /// one within the tolerance nor save time by a larger error.
     void offer_enough(std::size_t begin, std::size_t end, std::vector<scene::CellOption>& offered) const;
     void choose(MonotonicTime now, int samples, const geometry::PropShape& prop, const scene::PlanView& view);
+    [[nodiscard]] std::size_t end_of(std::size_t cell) const {
+        return cell + 1 < cells_.size() ? cells_[cell + 1].first : options_.size();
+    }
+    /// What is drawn of a cell in place of the wanted option: the same if it is there.
+    [[nodiscard]] std::size_t nearest_there(const Cell& cell) const;
+    /// The quickest option of a cell that is good enough there.
+    [[nodiscard]] std::size_t option_at_goal(std::size_t cell) const;
+    /// Sets `wanted_`.
+    void want_pages();
+    void want_page(std::size_t place);
     /// A cell's pose in this frame, in the site's view.
     [[nodiscard]] world::CellPose pose_of(const Cell& cell) const;
     /// True if the zoom is not 1: the world reaches out of the prop.
@@ -158,6 +196,9 @@ private:
     /// Sets `rasterizes_all_`.
     void choose_kind(MonotonicTime now, const scene::CellOption& mixed, const scene::CellOption& rasterized,
                      double budget_us);
+    [[nodiscard]] bool is_page(std::size_t option) const {
+        return is_site_ && !std::binary_search(given_.begin(), given_.end(), option);
+    }
     [[nodiscard]] bool is_rasterized(std::size_t option) const {
         return options_[option].placed.relief && !options_[option].placed.on_gpu;
     }
@@ -179,6 +220,10 @@ private:
     std::span<const world::CellPose> poses_; ///< of the latest step
     std::vector<LevelUse> uses_;
     std::vector<Option> options_;
+    std::vector<std::size_t> given_; ///< the options that come with the artifact
+    std::vector<world::RegionBox> regions_;
+    std::optional<Goal> goal_;
+    std::vector<std::size_t> wanted_, by_pixels_, targets_;
     std::vector<Cell> cells_;
     scene::CellChoice choice_, rasterized_choice_;
     std::vector<scene::CellOption> offered_, rasterized_; ///< of each option, in this frame

@@ -24,7 +24,9 @@ void RunCells::add_states(const pack::PackWorld& world, std::span<const pack::Pa
     std::vector<scene::Part> all;
     const auto add_to_ball = [&](const std::vector<world::CellPose>& poses) {
         for (const Cell& cell : cells_) {
-            scene::Part& part = all.emplace_back(scene::Part{options_[cell.first].placed, std::nullopt});
+            const std::size_t option =
+                is_site_ ? end_of(static_cast<std::size_t>(&cell - cells_.data())) - 1 : cell.first;
+            scene::Part& part = all.emplace_back(scene::Part{options_[option].placed, std::nullopt});
             scene::set_pose(part.level, poses[cell.number], metres_per_box_);
         }
     };
@@ -54,7 +56,7 @@ std::optional<std::size_t> RunCells::window_option(std::size_t cell, bool is_mes
     std::optional<std::size_t>
         found; // the last that is good enough, else the first: they are sorted, best first
     for (std::size_t option = begin; option < end; ++option) {
-        const bool fits = !is_mesh || options_[option].placed.triangles != nullptr;
+        const bool fits = (!is_mesh || options_[option].placed.triangles != nullptr) && !is_page(option);
         if (fits && (!found || options_[option].is_enough)) {
             found = option;
         }

@@ -60,13 +60,14 @@ struct LevelState {
     std::uint64_t ignored_times = 0;
 };
 
-/// A level after reading and culling, and its data to upload.
+/// A level after reading and culling, and its data to upload; or a level that is read later, without triangles and data.
 struct PreparedLevel {
     LevelUse use; ///< `gpu_bytes` is not known yet
     scene::SeenLevel seen;
     glm::dvec3 box_size{1.0};
-    int samples = 0;                                        ///< Pack::samples
-    std::shared_ptr<const scene::LevelTriangles> triangles; ///< null for a relief, which is in `data`
+    int samples = 0; ///< Pack::samples
+    /// Null for a relief, which is in `data`, and for a level that is read later.
+    std::shared_ptr<const scene::LevelTriangles> triangles;
     scene::RenderNeeds needs;
     std::vector<scene::LeftOut> left_out;
     scene::LevelData data;

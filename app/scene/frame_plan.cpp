@@ -203,7 +203,9 @@ std::optional<Draw> draw_part(const Part& part, std::size_t index, const FaceVie
     }
     draw.bounds =
         show_triangles(*level.triangles, volume, glm::mat4(clip_from_box), through.bounds, plan, draw.range);
-    return draw.range.count > 0 ? std::optional(draw) : std::nullopt;
+    const bool shows =
+        draw.range.count > 0 && !draw.bounds.empty(); // triangles may show beside the face alone
+    return shows ? std::optional(draw) : std::nullopt;
 }
 
 /// Leaves the faces, as bits, on which the level may show.

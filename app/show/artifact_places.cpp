@@ -1,4 +1,5 @@
 // Places all that lies on the table beside the artifact: captions, titles, signs, a site's map, the zone's frame.
+#include "app/exhibit/site_places.h"
 #include "app/scene/beyond_prop.h"
 #include "app/show/artifact_show.h"
 
@@ -119,7 +120,8 @@ ArtifactShow::place_caption(const exhibit::Presentation& presentation) const {
 
 void ArtifactShow::place_site_map(const exhibit::Presentation& presentation) {
     const exhibit::SiteGround& site = catalogue()[presentation.artifact].site;
-    if (!presentation.site_map || !presentation.site.view || white_ == scene::TextureId::None) {
+    if (!presentation.site_map || presentation.site_map->title.behaviour != exhibit::site_map_title ||
+        !presentation.site.view || white_ == scene::TextureId::None) {
         return;
     }
     constexpr double ground_light = 0.12, shown_light = 0.8;

@@ -344,6 +344,10 @@ void ArtifactShow::show_site(const exhibit::Presentation& presentation, residenc
     cells.show_site(presentation.site.view);
     const exhibit::SiteGround& site = catalogue()[presentation.artifact].site;
     const std::optional<std::size_t>& marked = presentation.site.marked;
+    const std::optional<std::size_t> goal = presentation.site.view ? presentation.site.region : marked;
+    cells.expect_site(goal && *goal < site.views.size()
+                          ? std::optional(residency::RunCells::Goal{*goal, site.views[*goal]})
+                          : std::nullopt);
     cells.mark(marked && *marked < site.regions.size() ? std::optional(site.regions[*marked]) : std::nullopt);
 }
 

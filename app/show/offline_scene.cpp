@@ -1,11 +1,11 @@
 #include "app/show/offline_scene.h"
 
 #include "app/pack/pack_relief.h"
-#include "app/pack/pack_site.h"
 #include "app/pack/pack_states.h"
 #include "app/pack/pack_world.h"
 #include "app/render/renderer.h"
 #include "app/scene/cell_plan.h"
+#include "app/show/offline_site.h"
 #include "app/show/offline_torch.h"
 
 #include <fmt/format.h>
@@ -87,29 +87,6 @@ Result<void> hold_state(const pack::PackState& state, const pack::PackWorld& wor
     return {};
 }
 
-/// The view of a site, whose regions `pack` has.
-Result<world::SiteView> site_view_of(const pack::PackDescription& pack, const OfflineSite& site) {
-    TRY(const std::vector<pack::SiteRegion> packed, pack::site_regions_of(pack));
-    if (packed.empty()) {
-        return bad_input(
-            "render.no_site",
-            "--site: the pack is no site; bake it with [site] in its artifact.toml, or leave the option out");
-    }
-    std::vector<world::RegionBox> regions;
-    for (const pack::SiteRegion& region : packed) {
-        regions.push_back({region.low, region.high});
-    }
-    const std::optional<std::size_t> region = world::region_at(regions, site.place_box);
-    if (!region) {
-        return bad_input("render.off_site",
-                         "--site: no region of the site is at {:.4f}, {:.4f}; its ground reaches to {:.4f} "
-                         "and {:.4f} on each side of the "
-                         "middle",
-                         site.place_box.x, site.place_box.y, 0.5 * pack.box_size.x, 0.5 * pack.box_size.y);
-    }
-    return world::view_of({site.place_box, regions[*region].low.z}, site.zoom);
-}
-
 /// The level of a site's region at a zoom: the coarsest level within the tolerance, otherwise the finest.
 Result<std::string> technique_at(const settings::Settings& settings, const pack::PackOutline& region,
                                  const scene::ScenePlan& whole, double metres_per_box) {
@@ -160,7 +137,7 @@ Result<OfflineWorld> load_offline_world(const std::filesystem::path& file, const
         read.behaviour = world.behaviours[behaviour].behaviour;
     }
     if (const auto& site = scene.setup.options.site) {
-        TRY(read.site, site_view_of(*scene.pack, *site));
+        TRY(read.site, offline_site_view(file, *scene.pack, scene.plan, *site));
     }
     read.cells = pack::tree_of(world);
     const std::vector<world::CellPose> at_rest = world::poses_at_rest(read.cells);

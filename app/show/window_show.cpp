@@ -1,5 +1,6 @@
 #include "app/show/window_show.h"
 
+#include "app/exhibit/site_places.h"
 #include "app/geometry/time_curves.h"
 #include "app/scene/scene_level.h"
 #include "app/scene/window_plan.h"
@@ -44,12 +45,25 @@ scene::WindowPlace place_of(const typography::TableRectangle& rectangle) {
             .depth_m = rectangle.size_m.y};
 }
 
+bool is_beyond(std::span<const scene::Part> parts) {
+    return std::any_of(parts.begin(), parts.end(), [](const scene::Part& part) { return part.level.beyond; });
+}
+
+scene::WorldBall ball_of(const geometry::PropShape& prop) {
+    scene::WorldBall ball{.middle = prop.middle, .radius = 0.0};
+    for (const glm::dvec3& corner : prop.corners) {
+        ball.radius = std::max(ball.radius, glm::distance(corner, ball.middle));
+    }
+    return ball;
+}
+
 } // namespace
 
 WindowShow::WindowShow(const settings::Settings& settings, const geometry::PropShape& prop, std::size_t eyes,
                        bool waits)
     : windows_(settings.windows), frame_m_(line_width_m(settings.projector)), prop_middle_m_(prop.middle),
-      samples_(1e3 / settings.projector.refresh_hz), frozen_(settings.projector, waits) {
+      prop_ball_(ball_of(prop)), samples_(1e3 / settings.projector.refresh_hz),
+      frozen_(settings.projector, waits) {
     for (std::size_t eye = 0; eye < eyes; ++eye) {
         spaces_.push_back(scene::make_plan(prop, 0, 1));
     }
@@ -82,12 +96,14 @@ void WindowShow::make_space(const residency::ArtifactCache& cache) {
     for (scene::FramePlan& space : spaces_) {
         scene::make_window_space(space, windows_.count, indices, parts);
     }
-    for (Held& held : held_) {
+    const auto make = [&](Held& held) {
         held = {};
         held.parts.reserve(parts + 1); // with the whole artifact, while it fades to its cells or back
         held.moved.reserve(parts + 1);
         held.view.surface = scene::window_surface(windows_.width_m, windows_.depth_m);
-    }
+    };
+    std::for_each(held_.begin(), held_.end(), make);
+    make(preview_);
 }
 
 std::span<const std::size_t> WindowShow::layers_of(const residency::KnownArtifact& artifact) {
@@ -103,19 +119,25 @@ std::span<const std::size_t> WindowShow::layers_of(const residency::KnownArtifac
 
 void WindowShow::place_frames(const exhibit::Presentation& presentation, double brightness,
                               residency::OnTable& on_table) const {
-    for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
-        const auto& [middle, size, turns] = window.rectangle;
+    const auto place_frame = [&](const typography::TableRectangle& rectangle, double of_window) {
+        const auto& [middle, size, turns] = rectangle;
         const glm::dvec2 off = 0.5 * (size + frame_m_);
         const auto add = [&](const glm::dvec2& at, const glm::dvec2& side) {
             on_table.add({.corners_m = residency::picture_corners(
                               {middle + typography::turned(at, turns), side, turns}),
-                          .brightness = frame_brightness * brightness * window.brightness,
+                          .brightness = frame_brightness * brightness * of_window,
                           .texture = white_});
         };
         for (const double side : {-1.0, 1.0}) {
             add({side * off.x, 0.0}, {frame_m_, size.y + 2.0 * frame_m_});
             add({0.0, side * off.y}, {size.x, frame_m_});
         }
+    };
+    for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
+        place_frame(window.rectangle, window.brightness);
+    }
+    if (preview_.number != 0 && presentation.site_map) {
+        place_frame(presentation.site_map->rectangle, presentation.site_map->brightness);
     }
 }
 
@@ -156,7 +178,9 @@ void WindowShow::aim(const exhibit::PresentedWindow& window, const std::optional
     held.zoom = window.zoom;
     held.is_aimed = false;
     std::optional<scene::WorldBall> ball = states;
-    if (!ball || !scene::contains(*ball, held.parts)) {
+    if (is_beyond(held.parts)) { // a part of a site: what the prop shows, not all that reaches out of it
+        ball = prop_ball_;
+    } else if (!ball || !scene::contains(*ball, held.parts)) {
         ball = scene::ball_around(held.parts);
         ball = ball && states ? std::optional(scene::united(*ball, *states)) : ball;
     }
@@ -221,7 +245,8 @@ void WindowShow::begin_patches(const exhibit::PresentedWindow& window, const res
     held.follows = window.follows;
     const residency::KnownArtifact& known = cache.known(window.artifact);
     const bool in_layer = window.state && known.states.at(*window.state).layer;
-    if (!held.is_aimed || window.follows || window.live || in_layer) {
+    // Patches are of a world that lies behind the window; a part of a site goes on before it.
+    if (!held.is_aimed || window.follows || window.live || in_layer || is_beyond(held.parts)) {
         frozen_.forget(window.number);
     } else {
         frozen_.freeze({.number = window.number,
@@ -285,9 +310,56 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
                                .brightness = brightness,
                                .patches = patches_for(window.number, table_from_window, eyes_m)};
     }
+    if (count < windows_.count) { // the plans have room for so many
+        count += place_preview(presentation, eyes_m, cache, placed_.at(count)) ? 1 : 0;
+    }
     frozen_.step(presentation.windows.windows());
     shows_ = count > 0;
     return std::span(placed_).first(count);
+}
+
+bool WindowShow::place_preview(const exhibit::Presentation& presentation, std::span<const glm::dvec3> eyes_m,
+                               const residency::ArtifactCache& cache, scene::PlacedWindow& placed) {
+    const std::optional<exhibit::PresentedTitle>& place = presentation.site_map;
+    const residency::RunCells* const cells = cache.find_cells(presentation.artifact);
+    if (!place || place->title.behaviour < exhibit::site_preview_title || cells == nullptr) {
+        preview_.number = 0;
+        return false;
+    }
+    const auto number = static_cast<std::uint32_t>(place->title.behaviour);
+    const bool is_marked =
+        cells->goal() && cells->goal()->region + exhibit::site_preview_title == place->title.behaviour;
+    if (is_marked) { // else it fades out as it is
+        if (preview_.number != number) {
+            preview_.number = number;
+            preview_eye_m_ = eyes_m.front();
+            preview_table_from_prop_ = presentation.table_from_prop;
+        }
+        preview_.parts.clear();
+        cells->show_goal(preview_.parts);
+        aim({.number = 0,
+             .artifact = presentation.artifact,
+             .comings = 0,
+             .rectangle = place->rectangle,
+             .eye_m = preview_eye_m_,
+             .table_from_prop = preview_table_from_prop_,
+             .brightness = 1.0},
+            std::nullopt, preview_);
+    }
+    double share = 1.0;
+    for (const glm::dvec3& eye : eyes_m) {
+        share = std::min(share, share_for(eye, place->rectangle.centre_m));
+    }
+    const double brightness = cache.exposure(presentation.artifact) * place->brightness * share;
+    if (preview_.number != number || !preview_.is_aimed || brightness <= 0.0) {
+        return false;
+    }
+    set_samples(preview_);
+    placed = {.surface = &preview_.view.surface,
+              .table_from_window = preview_.view.table_from_window,
+              .parts = preview_.moved,
+              .brightness = brightness};
+    return true;
 }
 
 std::span<const scene::PlacedWindow> WindowShow::sample(const scene::PlacedLevel& level,

@@ -97,6 +97,10 @@ private:
     [[nodiscard]] const scene::WindowPatches* patches_for(std::uint32_t number,
                                                           const geometry::RigidTransform& table_from_window,
                                                           std::span<const glm::dvec3> eyes_m);
+    /// The region of a site that is marked, as the prop will show it. False: none is, or it is not seen.
+    [[nodiscard]] bool place_preview(const exhibit::Presentation& presentation,
+                                     std::span<const glm::dvec3> eyes_m,
+                                     const residency::ArtifactCache& cache, scene::PlacedWindow& placed);
     void set_samples(Held& held) const;
     /// Moves the parts of a live window as those in the prop stand now.
     void go_on(const residency::RunCells& cells, Held& held) const;
@@ -104,6 +108,7 @@ private:
     settings::WindowSettings windows_;
     double frame_m_;
     glm::dvec3 prop_middle_m_;
+    scene::WorldBall prop_ball_; ///< around the prop
     scene::WindowSamples samples_;
     bool shows_ = false; ///< a window is in the latest picture
     scene::TextureId white_ = scene::TextureId::None;
@@ -111,6 +116,9 @@ private:
     std::vector<scene::FramePlan> spaces_; ///< one for each eye: of these, the windows
     std::array<scene::PlacedWindow, settings::max_windows> placed_{};
     std::array<std::size_t, pack::max_states> layers_{};
+    Held preview_;                  ///< of a site's marked region; `number`: the title of its place, 0: none
+    glm::dvec3 preview_eye_m_{0.0}; ///< when it began
+    geometry::RigidTransform preview_table_from_prop_;
     FrozenWindows frozen_;
 };
 

@@ -58,7 +58,7 @@ std::optional<std::size_t> region_at(std::span<const RegionBox> regions, const g
 std::optional<std::size_t> region_on_ray(std::span<const RegionBox> regions, const glm::dvec3& from,
                                          const glm::dvec3& along) {
     std::optional<std::size_t> found;
-    double longest = 0.0;
+    double longest = -1.0; // a flat region's is 0
     for (std::size_t k = 0; k < regions.size(); ++k) {
         double enters = 0.0;
         double leaves = std::numeric_limits<double>::infinity();
@@ -76,7 +76,7 @@ std::optional<std::size_t> region_on_ray(std::span<const RegionBox> regions, con
             enters = std::fmax(enters, near);
             leaves = std::fmin(leaves, far);
         }
-        if (leaves - enters > longest) {
+        if (leaves >= enters && leaves - enters > longest) {
             found = k;
             longest = leaves - enters;
         }

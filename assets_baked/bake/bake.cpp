@@ -3,12 +3,14 @@
 #include "app/geometry/convex_hull.h"
 #include "app/pack/pack_file.h"
 #include "app/pack/pack_hull.h"
+#include "assets_baked/bake/bake_region.h"
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/file_normals.h"
 #include "assets_baked/bake/layer_parts.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/measured_reliefs.h"
 #include "assets_baked/bake/reduction_error.h"
+#include "assets_baked/bake/seen_region.h"
 #include "assets_baked/bake/simplify.h"
 #include "assets_baked/bake/table_picture.h"
 #include "assets_baked/bake/texture_bake.h"
@@ -20,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -66,14 +69,26 @@ struct TexturedLevels {
 /// The input of the levels, for making and measuring them.
 class Bakery {
 public:
-    Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options)
-        : options_(options), frame_(frame), points_(in_box(mesh, frame)), source_(mesh, points_),
-          normals_(mesh, frame), welded_(weld(mesh, points_)),
+    Bakery(const SourceMesh& mesh, const BoxFrame& frame, const BakeOptions& options,
+           std::span<const CurtainTriangle> curtains)
+        : options_(options), curtains_(curtains), frame_(frame), points_(in_box(mesh, frame)),
+          source_(mesh, points_), normals_(mesh, frame), welded_(weld(mesh, points_)),
           texel_box_(1.0F / static_cast<float>(options.size)), reduction_(reduction_error(mesh, frame)) {}
 
     [[nodiscard]] Result<void> check() const { return check_surface(welded_); }
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
+    /// In the box.
+    void add_curtains(SourceMesh& mesh) const {
+        for (const CurtainTriangle& curtain : curtains_) {
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (const glm::dvec3& corner : curtain) {
+                mesh.positions.emplace_back(frame_.box_from_file * glm::dvec4(corner, 1.0));
+            }
+            mesh.triangles.push_back({first, first + 1, first + 2});
+            mesh.triangle_materials.push_back(0);
+        }
+    }
     [[nodiscard]] const pack::LevelError& reduction() const { return reduction_; }
 
     /// From fine to coarse.
@@ -187,8 +202,9 @@ private:
                         [](const SourceMaterial& material) { return material.alpha_mask; })) {
             return visible_sides(mesh, source_, options_.prop.zone);
         }
-        const SourceMesh own = as_source(mesh);
-        const std::vector<glm::dvec3> own_points(mesh.positions.begin(), mesh.positions.end());
+        SourceMesh own = as_source(mesh);
+        add_curtains(own);
+        const std::vector<glm::dvec3> own_points = own.positions;
         return visible_sides(mesh, SourceScene(own, own_points), options_.prop.zone);
     }
 
@@ -225,6 +241,7 @@ private:
     }
 
     const BakeOptions& options_;
+    std::span<const CurtainTriangle> curtains_; ///< of a region; they hide its underside
     const BoxFrame& frame_;
     std::vector<glm::dvec3> points_;
     SourceScene source_;
@@ -332,10 +349,15 @@ std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& l
 }
 
 Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
+    return bake_region(mesh, options, {});
+}
+
+Result<pack::Pack> bake_region(const SourceMesh& mesh, const BakeOptions& options,
+                               std::span<const CurtainTriangle> curtains) {
     const std::string up = options.up.empty() ? std::string(1, mesh.default_up) : options.up;
     TRY(const BoxFrame frame, make_box_frame(mesh, {up, options.turn_deg, options.lift}));
     begin_stage(options, stages::surface);
-    Bakery bakery(mesh, frame, options);
+    Bakery bakery(mesh, frame, options, curtains);
     TRY_VOID(bakery.check());
     pack::Pack pack;
     for (const GivenHotspot& given : options.hotspots) {
@@ -374,7 +396,13 @@ Result<pack::Pack> bake(const SourceMesh& mesh, const BakeOptions& options) {
     begin_stage(options, stages::choice);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
-    pack::SeenErrors seen = seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+    SourceMesh curtain_mesh = as_source({});
+    bakery.add_curtains(curtain_mesh);
+    const SourceScene curtain_scene(curtain_mesh, curtain_mesh.positions);
+    pack::SeenErrors seen =
+        options.of_site
+            ? seen_region_errors(pack, bakery.source(), curtain_scene, options.prop.zone, options.measuring)
+            : seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
     add_reduction(bakery.reduction(), seen);
     pack::put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);

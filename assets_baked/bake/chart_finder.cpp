@@ -61,7 +61,9 @@ void ChartFinder::take_from(const TriangleMesh& other, const std::vector<std::ui
     const std::vector<std::uint32_t> beside = beside_in(other);
     std::vector<std::uint32_t> taken;
     for (std::uint32_t t = 0; t < chart_of_.size(); ++t) {
-        if (beside[t] != no_chart && take(other_charts[beside[t]], t, min_facing_later)) {
+        // A triangle without area has no chart.
+        const std::uint32_t chart = beside[t] != no_chart ? other_charts[beside[t]] : no_chart;
+        if (chart != no_chart && take(chart, t, min_facing_later)) {
             taken.push_back(t);
         }
     }

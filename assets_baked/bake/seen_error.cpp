@@ -1,5 +1,6 @@
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/relief_scene.h"
+#include "assets_baked/bake/seen_region.h"
 #include "firmware_host/base/parallel.h"
 #include "firmware_host/base/quantile.h"
 
@@ -87,8 +88,15 @@ private:
     glm::vec3 eye_{0.0F}, first_{0.0F}, right_{0.0F}, up_{0.0F};
 };
 
-TraceSurface on(const SourceScene& scene) {
-    return [&scene](const glm::vec3& eye, const glm::vec3& direction) { return scene.trace(eye, direction); };
+/// `curtains`: a ray that meets them first hits nothing; null: there are none.
+TraceSurface on(const SourceScene& scene, const SourceScene* curtains = nullptr) {
+    return [&scene, curtains](const glm::vec3& eye, const glm::vec3& direction) {
+        constexpr float before = 1.0F - 1e-5F; // a curtain hangs from the surface's own edge
+        const SurfaceHit hit = scene.trace(eye, direction);
+        const bool is_hidden =
+            hit.hit && curtains != nullptr && curtains->occluded(eye, direction, 0.0F, before * hit.distance);
+        return is_hidden ? SurfaceHit{} : hit;
+    };
 }
 
 /// Number of hits with a 4-neighbour that misses.
@@ -314,16 +322,15 @@ std::vector<glm::dvec3> eyes_of(const ViewingZone& zone) {
     return eyes;
 }
 
-} // namespace
-
-pack::SeenErrors seen_errors(const pack::Pack& pack, std::span<const pack::MeasuredRelief> reliefs,
-                             const SourceScene& source, const ViewingZone& zone, double share) {
+pack::SeenErrors errors_behind(const SourceScene* curtains, const pack::Pack& pack,
+                               std::span<const pack::MeasuredRelief> reliefs, const SourceScene& source,
+                               const ViewingZone& zone, double share) {
     const double rays_an_eye = 10'000.0 * share;
     pack::SeenErrors seen;
     std::vector<SeenSource> eyes;
     for (const glm::dvec3& towards : eyes_of(zone)) {
         const EyeRays rays(towards, pack.box_size, rays_an_eye);
-        image::Image<float> distances = rays.cast(on(source));
+        image::Image<float> distances = rays.cast(on(source, curtains));
         const Slopes slopes = slopes_of(rays, distances);
         seen.eyes.push_back(eye_of(towards, rays, distances, slopes.steepness));
         eyes.push_back({rays, std::move(distances), slopes});
@@ -338,7 +345,7 @@ pack::SeenErrors seen_errors(const pack::Pack& pack, std::span<const pack::Measu
     for (const pack::PackLevel& level : pack.levels) {
         const SourceMesh mesh = textured_source(level, pack.textures[level.texture], pack.box_size);
         const SourceScene scene(mesh, mesh.positions, Sides::Front);
-        seen.levels.push_back(errors_of(on(scene)));
+        seen.levels.push_back(errors_of(on(scene, curtains)));
     }
     for (const pack::MeasuredRelief& measured : reliefs) {
         const ReliefScene scene(measured.relief);
@@ -346,6 +353,18 @@ pack::SeenErrors seen_errors(const pack::Pack& pack, std::span<const pack::Measu
             [&](const glm::vec3& eye, const glm::vec3& direction) { return scene.trace(eye, direction); }));
     }
     return seen;
+}
+
+} // namespace
+
+pack::SeenErrors seen_errors(const pack::Pack& pack, std::span<const pack::MeasuredRelief> reliefs,
+                             const SourceScene& source, const ViewingZone& zone, double share) {
+    return errors_behind(nullptr, pack, reliefs, source, zone, share);
+}
+
+pack::SeenErrors seen_region_errors(const pack::Pack& pack, const SourceScene& source,
+                                    const SourceScene& curtains, const ViewingZone& zone, double share) {
+    return errors_behind(&curtains, pack, {}, source, zone, share);
 }
 
 pack::LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,

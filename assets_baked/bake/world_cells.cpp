@@ -1,6 +1,7 @@
 #include "assets_baked/bake/world_cells.h"
 
 #include "app/pack/container/limits.h"
+#include "assets_baked/bake/bake_region.h"
 #include "assets_baked/bake/cell_mesh.h"
 #include "assets_baked/bake/source_scene.h"
 #include "firmware_host/base/printable.h"
@@ -76,7 +77,7 @@ public:
         for (std::size_t k = 0; k < made_.cells.size(); ++k) {
             weights_.push_back(meshes.triangles_of(k) == 0 ? 0.0 : 1.0);
         }
-        if (!options_.unlit) {
+        if (!options_.unlit || sides_ == CellSides::OfSite) {
             whole_.emplace(mesh_, meshes.points());
         }
         const double all = std::max(1.0, std::accumulate(weights_.begin(), weights_.end(), 0.0));
@@ -141,7 +142,7 @@ private:
         options.torches = {}; // a cell has the layers alone
         options.torch_parts = {};
         options.table_picture = false;
-        if (whole_) {
+        if (whole_ && !options_.unlit) {
             const glm::dvec3 middle = glm::mix(bounds.low, bounds.high, 0.5);
             options.part = {
                 .whole = &*whole_, .origin = {middle.x, middle.y, bounds.low.z}, .scale = longest};
@@ -162,7 +163,10 @@ private:
             flat_.push_back(cell.cell.name);
             return;
         }
-        Result<pack::Pack> baked = bake::bake(mesh, options_of(bounds, begin, end));
+        const std::vector<CurtainTriangle> curtains =
+            sides_ == CellSides::OfSite ? site_curtains(mesh, *whole_, 0.5 * glm::dvec2(frame_.box_size))
+                                        : std::vector<CurtainTriangle>();
+        Result<pack::Pack> baked = bake_region(mesh, options_of(bounds, begin, end), curtains);
         if (!baked) { // has triangles, and yet no surface
             flat_.push_back(cell.cell.name);
             return;
@@ -196,7 +200,7 @@ private:
     const SourceMesh& mesh_;
     const BoxFrame& frame_;
     const BakeOptions& options_;
-    std::optional<SourceScene> whole_; ///< shadows the cells
+    std::optional<SourceScene> whole_; ///< shadows the cells, and lies under their cuts
     CellSides sides_;
     WorldCells made_;
     std::vector<std::optional<std::size_t>> holder_; ///< of each node: the cell of its triangles

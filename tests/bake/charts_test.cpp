@@ -79,4 +79,22 @@ TEST(Charts, NoTexelIsInsideTwoTriangles) {
     EXPECT_GT(owners.size(), 20000U);
 }
 
+/// A triangle of a coarser mesh that rounding presses flat has no chart; one of the finer mesh has it for its nearest neighbour.
+TEST(Charts, AMeshIsChartedBesideATriangleWithoutArea) {
+    const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3}};
+    TriangleMesh coarse = square;
+    coarse.positions.insert(coarse.positions.end(), {{0, 0, 1}, {0.05F, 0, 1}, {0.1F, 0, 1}});
+    coarse.indices.insert(coarse.indices.end(), {4, 5, 6});
+    TriangleMesh fine = square;
+    fine.positions.insert(fine.positions.end(),
+                          {{0.02F, 0.02F, 1}, {0.06F, 0.02F, 1}, {0.04F, 0.02F, 1.04F}});
+    fine.indices.insert(fine.indices.end(), {4, 5, 6});
+    SharedCharts charts(1.0F / 128.0F, 4096);
+    charts.add(coarse, 0.0F);
+    charts.add(fine, 0.1F);
+    const std::vector<ChartedMesh> meshes = charts.lay_out();
+    EXPECT_EQ(meshes[0].indices.size(), 6U);
+    EXPECT_EQ(meshes[1].indices.size(), 9U);
+}
+
 } // namespace frustumscreen::bake

@@ -1,5 +1,7 @@
 // A site that is cut into regions: areas, edges and squares by arithmetic of the test's own.
+#include "assets_baked/bake/level.h"
 #include "assets_baked/bake/site_regions.h"
+#include "assets_baked/bake/world_cells.h"
 #include "tests/bake/shapes.h"
 #include "tests/base/told.h"
 
@@ -162,6 +164,84 @@ TEST(CutSite, RefusesWhatIsNoSiteInOneSentence) {
               std::string::npos);
     EXPECT_NE(refusal(hills(50), "x", 1000).find("has no ground"), std::string::npos);
     EXPECT_NE(refusal(hills(120), "z", 10).find("a region holds at most 10"), std::string::npos);
+}
+
+/// Hills that stand on a block of earth: nobody above the ground sees the block from within. `bridge`: a slab over the middle, 10 m
+/// above the hills, on no pillars.
+SourceMesh block_of_hills(bool bridge) {
+    constexpr int n = 40;
+    SourceMesh mesh = test::empty_mesh();
+    mesh.default_up = 'z';
+    const auto height = [](double x, double y) {
+        return 30.0 + 24.0 * std::sin(0.11 * x) * std::cos(0.13 * y);
+    };
+    const auto quad = [&](const std::array<glm::dvec3, 4>& corners) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+        test::add_triangle(mesh, first, first + 1, first + 2);
+        test::add_triangle(mesh, first, first + 2, first + 3);
+    };
+    const auto at = [&](int i, int j) {
+        const double x = 200.0 * i / n, y = 200.0 * j / n;
+        return glm::dvec3(x, y, height(x, y));
+    };
+    const auto foot = [&](int i, int j) { return at(i, j) * glm::dvec3(1.0, 1.0, 0.0); };
+    for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+            quad({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+            quad({foot(i, j), foot(i, j + 1), foot(i + 1, j + 1), foot(i + 1, j)});
+        }
+        quad({foot(j, 0), foot(j + 1, 0), at(j + 1, 0), at(j, 0)});
+        quad({foot(j + 1, n), foot(j, n), at(j, n), at(j + 1, n)});
+        quad({foot(0, j + 1), foot(0, j), at(0, j), at(0, j + 1)});
+        quad({foot(n, j), foot(n, j + 1), at(n, j + 1), at(n, j)});
+    }
+    if (bridge) {
+        const glm::dvec3 low(70.0, 97.0, 64.0), high(130.0, 101.0, 66.0);
+        for (const double z : {low.z, high.z}) {
+            quad({glm::dvec3(low.x, low.y, z), {high.x, low.y, z}, {high.x, high.y, z}, {low.x, high.y, z}});
+        }
+    }
+    return mesh;
+}
+
+struct CountedSides {
+    int down = 0, within = 0; ///< triangles that look down; on the block's floor
+    int all = 0;
+};
+CountedSides finest_sides(const SourceMesh& mesh) {
+    BakeOptions options;
+    options.size = 32;
+    options.unlit = true;
+    options.up = "z";
+    const BoxFrame frame = site_frame(mesh);
+    const SourceMesh regions = cut_site(mesh, frame, {.max_triangles = 100'000}).value();
+    CountedSides sides;
+    for (const pack::Pack& region : bake_cells(regions, frame, options, CellSides::OfSite).geometry) {
+        const TriangleMesh finest = surface_of(region.levels.back(), region.box_size);
+        for (std::size_t t = 0; t < finest.triangle_count(); ++t) {
+            const glm::vec3 normal = glm::normalize(finest.area_normal(t));
+            ++sides.all;
+            sides.down += normal.z < -0.01F ? 1 : 0;
+            sides.within += std::abs(normal.z) > 0.99F && finest.corner(t, 0).z < 1e-3F ? 1 : 0;
+        }
+    }
+    return sides;
+}
+
+TEST(SiteRegions, ShowNothingThatIsSeenOnlyFromUnderTheGround) {
+    const SourceMesh mesh = block_of_hills(false);
+    const CountedSides sides = finest_sides(mesh);
+    // A visible side is kept with what touches it: two triangles of the floor for each quad of the block's sides.
+    constexpr int margin = 8 * 40;
+    EXPECT_LE(sides.down, margin);
+    EXPECT_LE(sides.within, margin);
+    EXPECT_GE(sides.all, 2 * 40 * 40 + 8 * 40); // the hills and the block's sides
+    EXPECT_LE(sides.all, 2 * 40 * 40 + 8 * 40 + margin);
+}
+
+TEST(SiteRegions, KeepTheUndersideOfABridgeOverACut) {
+    EXPECT_GT(finest_sides(block_of_hills(true)).down, 4);
 }
 
 } // namespace

@@ -75,6 +75,7 @@ constexpr ExemptSource exempt[] = {
     {"app/residency/prompt_reader.cpp", "the journal"},
     {"app/residency/torch_contents.cpp", "the journal"},
     {"app/show/offline_scene.cpp", "frustumscreen render"},
+    {"app/show/offline_site.cpp", "frustumscreen render"},
     {"app/show/offline_torch.cpp", "frustumscreen render"},
     {"app/show/run_hours.cpp", "the journal and the status file"},
     {"app/show/run_loop.cpp", "the journal"},
@@ -104,10 +105,11 @@ constexpr ExemptSource exempt[] = {
 
 /// Sentences that are never shown, of sources that also have shown ones.
 constexpr const char* never_shown[] = {
-    "FrustumScreen kiosk copy 1", // in the file of a copy
-    "not wanted any more",        // ends a thread's work; not shown
-    "no picture for the staff",   // the journal
-    "texts left out",             // the journal
+    "FrustumScreen kiosk copy 1",      // in the file of a copy
+    "not wanted any more",             // ends a thread's work; not shown
+    "no picture for the staff",        // the journal
+    "texts left out",                  // the journal
+    "a region's finer level left out", // the journal
 };
 
 std::string text_of(const fs::path& file) {

@@ -85,7 +85,7 @@ struct Triangles {
     explicit Triangles(const std::array<BoxNode, 3>& nodes, std::size_t count = 3) {
         for (const BoxNode& node : std::span(nodes).first(count)) {
             for (const std::array<std::uint32_t, 3>& triangle : box_triangles) {
-                std::array<glm::dvec3, 3>& placed = all.emplace_back();
+                RayTriangle& placed = all.emplace_back();
                 for (std::size_t k = 0; k < 3; ++k) {
                     glm::dvec3 point = corners_of(node).at(triangle.at(k));
                     for (const BoxNode* at = &node; at != nullptr;
@@ -100,21 +100,13 @@ struct Triangles {
     /// As Star::hit.
     [[nodiscard]] std::optional<glm::dvec3> hit(const glm::dvec3& from, const glm::dvec3& along) const {
         double first = std::numeric_limits<double>::infinity();
-        for (const auto& [a, b, c] : all) {
-            const glm::dvec3 ab = b - a;
-            const glm::dvec3 ac = c - a;
-            const glm::dvec3 p = glm::cross(along, ac);
-            const double area = glm::dot(ab, p);
-            const glm::dvec3 s = from - a;
-            const double u = glm::dot(s, p) / area;
-            const glm::dvec3 q = glm::cross(s, ab);
-            const double v = glm::dot(along, q) / area;
-            const double t = glm::dot(ac, q) / area;
-            first = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 ? std::fmin(first, t) : first;
+        for (const RayTriangle& triangle : all) {
+            const double t = ray_meets(triangle, from, along);
+            first = t > 0.0 ? std::fmin(first, t) : first;
         }
         return std::isfinite(first) ? std::optional(from + first * along) : std::nullopt;
     }
-    std::vector<std::array<glm::dvec3, 3>> all;
+    std::vector<RayTriangle> all;
 };
 
 /// Where the artifact's rest stands in the prop, as Star.

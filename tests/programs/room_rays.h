@@ -2,6 +2,8 @@
 // of the screen alone. It shares nothing with the programs.
 #pragma once
 
+#include "tests/programs/solid_rays.h"
+
 #include <glm/glm.hpp>
 
 #include <array>
@@ -101,7 +103,7 @@ public:
             }
         }
     }
-    /// The surface that the eye sees first in this direction, before and behind the screen (Moeller, Trumbore 1997).
+    /// The surface that the eye sees first in this direction, before and behind the screen.
     [[nodiscard]] std::optional<RoomHit> hit(const glm::dvec3& eye, const glm::dvec3& towards) const {
         const glm::dvec3 along = glm::normalize(towards - eye);
         double first = std::numeric_limits<double>::infinity();
@@ -112,15 +114,9 @@ public:
             if (glm::dot(off, off) - ahead * ahead > spheres_[which].radius * spheres_[which].radius) {
                 continue;
             }
-            for (const auto& [a, b, c] : spheres_[which].triangles) {
-                const glm::dvec3 p = glm::cross(along, c - a);
-                const double area = glm::dot(b - a, p);
-                const glm::dvec3 s = eye - a;
-                const double u = glm::dot(s, p) / area;
-                const glm::dvec3 q = glm::cross(s, b - a);
-                const double v = glm::dot(along, q) / area;
-                const double t = glm::dot(c - a, q) / area;
-                if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < first) {
+            for (const RayTriangle& triangle : spheres_[which].triangles) {
+                const double t = ray_meets(triangle, eye, along);
+                if (t > 0.0 && t < first) {
                     first = t;
                     object = which;
                 }

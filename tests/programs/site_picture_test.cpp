@@ -15,6 +15,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace frustumscreen::programs {
@@ -26,18 +27,16 @@ constexpr int site_height = 200;
 constexpr double site_focal_px = 500.0;
 constexpr glm::dvec3 site_lens_m(0.0, 0.0, 0.9);
 
-using Triangle = std::array<glm::dvec3, 3>;
-
 /// Hills of 36 x 36 quads over 200 x 200 m whose lowest places are flat, so that each region begins at z = 0; towers on them. The
 /// squares of 4 x 4 cut no quad's edge, those of 8 x 8 do.
-std::vector<Triangle> town() {
+std::vector<RayTriangle> town() {
     constexpr int n = 36;
     const auto at = [](int i, int j) {
         const double x = 200.0 * i / n;
         const double y = 200.0 * j / n;
         return glm::dvec3(x, y, std::fmax(0.0, 9.0 * std::sin(0.13 * x) * std::cos(0.11 * y)));
     };
-    std::vector<Triangle> triangles;
+    std::vector<RayTriangle> triangles;
     for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
             triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
@@ -60,9 +59,26 @@ std::vector<Triangle> town() {
     return triangles;
 }
 
-std::string obj_of(const std::vector<Triangle>& triangles) {
+/// A ridge along y, of 36 x 36 quads over 200 x 200 m, that rises 3 m on each 2 m.
+std::vector<RayTriangle> ridge() {
+    constexpr int n = 36;
+    const auto at = [](int i, int j) {
+        const double x = 200.0 * i / n;
+        return glm::dvec3(x, 200.0 * j / n, 150.0 - 1.5 * std::abs(x - 100.0));
+    };
+    std::vector<RayTriangle> triangles;
+    for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+            triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    }
+    return triangles;
+}
+
+std::string obj_of(const std::vector<RayTriangle>& triangles) {
     std::string text;
-    for (const Triangle& triangle : triangles) {
+    for (const RayTriangle& triangle : triangles) {
         for (const glm::dvec3& corner : triangle) {
             text += fmt::format("v {} {} {}\n", corner.x, corner.y, corner.z);
         }
@@ -75,28 +91,19 @@ std::string obj_of(const std::vector<Triangle>& triangles) {
 struct PlacedTown {
     [[nodiscard]] std::optional<glm::dvec3> hit(const glm::dvec3& from, const glm::dvec3& along) const {
         double first = std::numeric_limits<double>::infinity();
-        for (const auto& [a, b, c] : all) {
-            const glm::dvec3 ab = b - a;
-            const glm::dvec3 ac = c - a;
-            const glm::dvec3 p = glm::cross(along, ac);
-            const double area = glm::dot(ab, p);
-            const glm::dvec3 s = from - a;
-            const double u = glm::dot(s, p) / area;
-            const glm::dvec3 q = glm::cross(s, ab);
-            const double v = glm::dot(along, q) / area;
-            const double t = glm::dot(ac, q) / area;
-            first = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 1.0 ? std::fmin(first, t) : first;
+        for (const RayTriangle& triangle : all) {
+            const double t = ray_meets(triangle, from, along);
+            first = t >= 1.0 ? std::fmin(first, t) : first;
         }
         return std::isfinite(first) ? std::optional(from + first * along) : std::nullopt;
     }
-    std::vector<Triangle> all;
+    std::vector<RayTriangle> all;
 };
 
-/// The site's longer side is 1 in the box frame, whose z axis goes through its middle.
-PlacedTown placed_in(const std::vector<HalfSpace>& prop, const glm::dvec2& place, double zoom) {
-    PlacedTown placed{town()};
+/// Makes the site's longer side 1 in the box frame, whose z axis goes through its middle. Returns the miniature's metres per box.
+double bring_into_box(const std::vector<HalfSpace>& prop, std::vector<RayTriangle>& site) {
     double metres = std::numeric_limits<double>::infinity();
-    for (Triangle& triangle : placed.all) {
+    for (RayTriangle& triangle : site) {
         for (glm::dvec3& corner : triangle) {
             corner = (corner - glm::dvec3(100.0, 100.0, 0.0)) / 200.0;
             for (const HalfSpace& plane : prop) {
@@ -105,9 +112,17 @@ PlacedTown placed_in(const std::vector<HalfSpace>& prop, const glm::dvec2& place
             }
         }
     }
-    for (Triangle& triangle : placed.all) {
+    return metres;
+}
+
+/// `place`: of the site, box frame.
+PlacedTown placed_in(const std::vector<HalfSpace>& prop, std::vector<RayTriangle> site,
+                     const glm::dvec3& place, double zoom) {
+    const double metres = bring_into_box(prop, site);
+    PlacedTown placed{std::move(site)};
+    for (RayTriangle& triangle : placed.all) {
         for (glm::dvec3& corner : triangle) {
-            corner = metres * zoom * (corner - glm::dvec3(place, 0.0));
+            corner = metres * zoom * (corner - place);
         }
     }
     return placed;
@@ -162,9 +177,9 @@ protected:
                    "--no-light --aov --technique finest " +
                    more);
     }
-    void compare(const glm::dvec2& place, double zoom) const {
+    void compare(const std::vector<RayTriangle>& site, const glm::dvec3& place, double zoom) const {
         const std::vector<HalfSpace> prop = planes_of(text_of(prop_file()));
-        const PlacedTown truth = placed_in(prop, place, zoom);
+        const PlacedTown truth = placed_in(prop, site, place, zoom);
         int hits = 0; // a corner of the site is not seen from every side
         for (std::size_t k = 0; k < poses_.size(); ++k) {
             const SitePose& pose = poses_[k];
@@ -202,7 +217,26 @@ TEST_F(SitePicture, ShowsAPartOfTheSiteWhereRaysBehindTheFacesSeeIt) {
                                       {glm::dvec2(0.5, -0.5), 3.0},
                                       {glm::dvec2(0.0, 0.0), 1.0}}) {
         ASSERT_EQ(render(fmt::format("--site {},{},{}", place.x, place.y, zoom)), 0) << text("err.txt");
-        compare(place, zoom);
+        compare(town(), glm::dvec3(place, 0.0), zoom);
+    }
+}
+
+/// The ground of the region is the foot of its slope, far below most of its places.
+TEST_F(SitePicture, StandsHalfInTheGroundOnASteepSlope) {
+    put("town.obj", obj_of(ridge()));
+    ASSERT_EQ(bake("--site"), 0) << text("err.txt");
+    const std::vector<HalfSpace> prop = planes_of(text_of(prop_file()));
+    double height_m = 0.0; // from the bottom, on z = 0
+    for (const HalfSpace& plane : prop) {
+        height_m = plane.normal.z > 0.5 ? plane.offset : height_m;
+    }
+    std::vector<RayTriangle> box = ridge();
+    const double metres = bring_into_box(prop, box);
+    for (const auto& [place, zoom] :
+         {std::pair(glm::dvec2(0.3, 0.1), 20.0), {glm::dvec2(-0.1, -0.3), 60.0}}) {
+        const double above = 0.75 - 1.5 * std::abs(place.x); // the surface there
+        ASSERT_EQ(render(fmt::format("--site {},{},{}", place.x, place.y, zoom)), 0) << text("err.txt");
+        compare(ridge(), glm::dvec3(place, above - 0.5 * height_m / (zoom * metres)), zoom);
     }
 }
 

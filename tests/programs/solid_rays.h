@@ -69,6 +69,21 @@ inline std::optional<Entry> entry(const std::vector<HalfSpace>& planes, const gl
     return in.t < out ? std::optional(in) : std::nullopt;
 }
 
+using RayTriangle = std::array<glm::dvec3, 3>;
+
+/// Where the line from + t * along meets the triangle: t, also before the line's beginning; not a number: it passes (Moeller, Trumbore 1997).
+inline double ray_meets(const RayTriangle& triangle, const glm::dvec3& from, const glm::dvec3& along) {
+    const auto& [a, b, c] = triangle;
+    const glm::dvec3 p = glm::cross(along, c - a);
+    const double area = glm::dot(b - a, p);
+    const glm::dvec3 s = from - a;
+    const double u = glm::dot(s, p) / area;
+    const glm::dvec3 q = glm::cross(s, b - a);
+    const double v = glm::dot(along, q) / area;
+    const bool meets = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+    return meets ? glm::dot(c - a, q) / area : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// The star of `write_star` in a prop: z is up, the middle of its box on the axis, its lowest corner on z = 0, as large
 /// as fits.
 struct Star {
@@ -85,20 +100,12 @@ struct Star {
             corner *= scale;
         }
     }
-    /// The first point of the surface on a ray, if it meets it (Moeller, Trumbore 1997).
+    /// The first point of the surface on a ray, if it meets it.
     [[nodiscard]] std::optional<glm::dvec3> hit(const glm::dvec3& from, const glm::dvec3& along) const {
         double first = std::numeric_limits<double>::infinity();
         for (const auto& [a, b, c] : triangles) {
-            const glm::dvec3 ab = corners[b] - corners[a];
-            const glm::dvec3 ac = corners[c] - corners[a];
-            const glm::dvec3 p = glm::cross(along, ac);
-            const double area = glm::dot(ab, p);
-            const glm::dvec3 s = from - corners[a];
-            const double u = glm::dot(s, p) / area;
-            const glm::dvec3 q = glm::cross(s, ab);
-            const double v = glm::dot(along, q) / area;
-            const double t = glm::dot(ac, q) / area;
-            first = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 ? std::fmin(first, t) : first;
+            const double t = ray_meets({corners[a], corners[b], corners[c]}, from, along);
+            first = t > 0.0 ? std::fmin(first, t) : first;
         }
         return std::isfinite(first) ? std::optional(from + first * along) : std::nullopt;
     }

@@ -136,6 +136,10 @@ TEST(SiteRegions, AreFoundByTheRayThatIsLongestInThem) {
     EXPECT_GT(found, 100);
     EXPECT_FALSE(region_on_ray(regions, {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0})); // upwards
     EXPECT_EQ(region_on_ray(regions, {0.1, 0.1, 1.0}, {0.0, 0.0, -1.0}), 10U);
+    const std::vector<RegionBox> flat{{{-0.5, -0.5, 0.0}, {0.0, 0.5, 0.0}},
+                                      {{0.0, -0.5, 0.0}, {0.5, 0.5, 0.0}}};
+    EXPECT_EQ(region_on_ray(flat, {0.3, -2.0, 2.0}, {0.0, 2.0, -2.0}), 1U);
+    EXPECT_FALSE(region_on_ray(flat, {0.3, -2.0, 2.0}, {0.0, 5.0, -2.0}));
 }
 
 } // namespace

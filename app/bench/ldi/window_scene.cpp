@@ -2,6 +2,7 @@
 
 #include "app/bench/truth/seeded_draw.h"
 #include "app/simulation/site.h"
+#include "assets_baked/artifacts/site_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,22 +24,6 @@ glm::dmat4 window_from_site_at(double depth_m) {
     glm::dmat4 window_from_site(glm::dmat3(right, glm::cross(up, right), up));
     window_from_site[3] = glm::dvec4(0.0, 0.0, -depth_m, 1.0);
     return window_from_site;
-}
-
-bake::SourceMesh as_source(const simulation::Site& site) {
-    bake::SourceMesh mesh;
-    mesh.positions.assign(site.positions.begin(), site.positions.end());
-    mesh.uvs = site.texture_places;
-    for (std::size_t k = 0; k + 2 < site.indices.size(); k += 3) {
-        mesh.triangles.push_back({site.indices[k], site.indices[k + 1], site.indices[k + 2]});
-    }
-    mesh.triangle_materials.assign(mesh.triangles.size(), 0);
-    mesh.materials.resize(1);
-    mesh.materials.front().texture = 0;
-    mesh.textures = {{site.texture, bake::Wrap::Clamp, bake::Wrap::Clamp}};
-    mesh.is_unlit = true;
-    mesh.default_up = 'z';
-    return mesh;
 }
 
 glm::dvec3 eye_at(double polar, double azimuth, double distance_m) {
@@ -67,7 +52,7 @@ WindowScene make_window_scene(std::size_t triangles, std::uint64_t seed) {
     scene.size_m = std::max({extent.x, extent.y, extent.z});
     scene.box_size = extent / scene.size_m;
     scene.frozen_eye_m = eye_at(35.0 * degree, -0.25 * turn, frozen_from_m);
-    scene.mesh = std::make_shared<const bake::SourceMesh>(as_source(site));
+    scene.mesh = std::make_shared<const bake::SourceMesh>(artifacts::mesh_of_site(site));
     auto world = std::make_shared<ldi::TriangleWorld>();
     for (const glm::vec3& at : site.positions) {
         world->positions.emplace_back(scene.window_from_site * glm::dvec4(at, 1.0));

@@ -9,11 +9,11 @@ namespace frustumscreen::bench {
 std::vector<StabilityCase> stability_cases() {
     std::vector<StabilityCase> cases;
     for (const auto& theme :
-         {eye_cases,          two_eyes_cases, room_cases,      window_cases,      torch_cases,
-          torch_plan_cases,   prop_cases,     projector_cases, light_cases,       artifact_cases,
-          shape_cases,        pose_cases,     time_cases,      smoother_cases,    estimator_cases,
-          fade_cases,         motion_cases,   governor_cases,  calibration_cases, layered_depth_cases,
-          patch_relief_cases, driver_cases}) {
+         {eye_cases,           two_eyes_cases,     room_cases,   window_cases,    site_cases,
+          torch_cases,         torch_plan_cases,   prop_cases,   projector_cases, light_cases,
+          artifact_cases,      shape_cases,        pose_cases,   time_cases,      smoother_cases,
+          estimator_cases,     fade_cases,         motion_cases, governor_cases,  calibration_cases,
+          layered_depth_cases, patch_relief_cases, driver_cases}) {
         for (StabilityCase& one : theme()) {
             cases.push_back(std::move(one));
         }

@@ -13,6 +13,7 @@ namespace frustumscreen::bench {
 [[nodiscard]] std::vector<StabilityCase> torch_cases();
 [[nodiscard]] std::vector<StabilityCase> torch_plan_cases();
 [[nodiscard]] std::vector<StabilityCase> window_cases();
+[[nodiscard]] std::vector<StabilityCase> site_cases();
 [[nodiscard]] std::vector<StabilityCase> prop_cases();
 [[nodiscard]] std::vector<StabilityCase> projector_cases();
 [[nodiscard]] std::vector<StabilityCase> light_cases();

@@ -1,6 +1,7 @@
 #include "app/programs/artifact/example_sites.h"
 
 #include "app/simulation/site.h"
+#include "assets_baked/artifacts/site_mesh.h"
 
 #include <fmt/format.h>
 
@@ -102,19 +103,11 @@ Result<bake::SourceMesh> make_example_site(std::string_view name, std::int64_t t
                                                          .triangles = static_cast<std::size_t>(triangles),
                                                          .seed = 1,
                                                          .size_m = made->side_m});
-    bake::SourceMesh mesh;
-    mesh.positions.reserve(site.positions.size());
-    for (const glm::vec3& at : site.positions) {
-        mesh.positions.emplace_back(at.x, at.z, -at.y); // up is +Y
+    bake::SourceMesh mesh = artifacts::mesh_of_site(site);
+    for (glm::dvec3& at : mesh.positions) {
+        at = {at.x, at.z, -at.y};
     }
-    mesh.uvs = site.texture_places;
-    for (std::size_t k = 0; k + 2 < site.indices.size(); k += 3) {
-        mesh.triangles.push_back({site.indices[k], site.indices[k + 1], site.indices[k + 2]});
-    }
-    mesh.triangle_materials.assign(mesh.triangles.size(), 0);
-    mesh.materials.resize(1);
-    mesh.materials.front().texture = 0;
-    mesh.textures = {{site.texture, bake::Wrap::Clamp, bake::Wrap::Clamp}};
+    mesh.default_up = 'y';
     return mesh;
 }
 

@@ -1,0 +1,129 @@
+// The pages of a site's regions: which are wanted, and what is drawn until they come.
+#include "app/residency/run_cells.h"
+#include "app/scene/cell_plan.h"
+
+#include <algorithm>
+
+namespace frustumscreen::residency {
+
+namespace {
+
+bool touch(const world::RegionBox& a, const world::RegionBox& b) {
+    constexpr double rounding = 1e-6;
+    return glm::all(glm::lessThanEqual(glm::dvec2(a.low), glm::dvec2(b.high) + rounding)) &&
+           glm::all(glm::lessThanEqual(glm::dvec2(b.low), glm::dvec2(a.high) + rounding));
+}
+
+} // namespace
+
+std::size_t RunCells::nearest_there(const Cell& cell) const {
+    const auto can_show = [&](std::size_t option) {
+        const Option& of = options_[cell.first + option];
+        return of.there && !of.leaves;
+    };
+    if (can_show(cell.wanted)) {
+        return cell.wanted;
+    }
+    if (cell.shown < cell.wanted && can_show(cell.shown)) {
+        return cell.shown; // it is finer than the wanted one
+    }
+    std::size_t option = cell.wanted;
+    while (!can_show(option)) { // the coarsest is always there
+        ++option;
+    }
+    return option;
+}
+
+void RunCells::want_page(std::size_t place) {
+    const bool is_new = std::find(wanted_.begin(), wanted_.end(), place) == wanted_.end();
+    if (is_page(place) && is_new && wanted_.size() < max_wanted_pages) {
+        wanted_.push_back(place);
+        options_[place].leaves = false;
+    }
+}
+
+std::size_t RunCells::option_at_goal(std::size_t cell) const {
+    std::size_t option = end_of(cell) - 1;
+    while (option > cells_[cell].first && options_[option].enough_to < goal_->view.zoom) {
+        --option;
+    }
+    return option;
+}
+
+void RunCells::show_goal(std::vector<scene::Part>& parts) const {
+    for (std::size_t k = 0; goal_ && k < cells_.size() && !poses_.empty(); ++k) {
+        std::size_t option = option_at_goal(k);
+        while (!options_[option].there || options_[option].leaves) {
+            ++option;
+        }
+        world::CellPose pose = poses_[cells_[k].number];
+        pose.box_from_geometry = goal_->view.matrix() * pose.box_from_geometry;
+        scene::Part& part = parts.emplace_back(scene::Part{options_[option].placed, std::nullopt});
+        scene::set_pose(part.level, pose, metres_per_box_);
+        part.level.beyond = true;
+    }
+}
+
+void RunCells::want_pages() {
+    wanted_.clear();
+    if (!is_site_) {
+        return;
+    }
+    if (shows_) {
+        by_pixels_.clear();
+        for (std::size_t k = 0; k < cells_.size(); ++k) {
+            if (cells_[k].pixels > 0.0) {
+                by_pixels_.push_back(k);
+            }
+        }
+        std::sort(by_pixels_.begin(), by_pixels_.end(), [this](std::size_t a, std::size_t b) {
+            return cells_[a].pixels > cells_[b].pixels || (cells_[a].pixels == cells_[b].pixels && a < b);
+        });
+        for (const std::size_t k : by_pixels_) {
+            want_page(cells_[k].first + cells_[k].wanted);
+        }
+    }
+    if (!goal_ || goal_->region >= cells_.size()) {
+        return;
+    }
+    const auto want_at_goal = [this](std::size_t k) { want_page(option_at_goal(k)); };
+    want_at_goal(goal_->region);
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        if (k != goal_->region && touch(regions_[k], regions_[goal_->region])) {
+            want_at_goal(k);
+        }
+    }
+}
+
+void RunCells::give_page(std::size_t place, const PreparedLevel& level, const scene::Drawable& drawable,
+                         const render::GpuStore& store) {
+    Option& option = options_.at(place);
+    option.placed.triangles = level.triangles;
+    option.placed.drawable = drawable;
+    option.there = true;
+    option.leaves = false;
+    uses_[place] = level.use;
+    uses_[place].gpu_bytes = store.bytes(drawable);
+}
+
+bool RunCells::let_go(std::size_t place) {
+    Option& option = options_.at(place);
+    option.leaves = true;
+    for (const Cell& cell : cells_) {
+        if (cell.first + cell.shown == place || (cell.coming && cell.first + *cell.coming == place)) {
+            return false;
+        }
+    }
+    constexpr long own = 2; // this and the page itself; a window has a copy
+    return option.placed.triangles.use_count() <= own;
+}
+
+void RunCells::take_page(std::size_t place) {
+    Option& option = options_.at(place);
+    option.there = false;
+    option.placed.triangles.reset();
+    option.placed.drawable = {};
+    uses_[place] = {.level = uses_[place].level};
+}
+
+} // namespace frustumscreen::residency

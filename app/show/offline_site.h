@@ -1,0 +1,26 @@
+/// Where `frustumscreen render --site` stands: the part of a site around a place of its ground.
+///
+/// Ground   of the region there (pack_site.h), but not so low that the site's surface above the place would be higher than the middle of the prop:
+///          on a steep slope the prop would stand inside the hill.
+/// Frame    box of the whole site.
+/// Threads  any.
+/// Errors   a pack that is no site, a place beside it; as load_cell.
+#pragma once
+
+#include "app/pack/pack.h"
+#include "app/scene/scene_plan.h"
+#include "app/show/offline_scene.h"
+#include "app/world/site_view.h"
+#include "firmware_host/base/result.h"
+
+#include <filesystem>
+
+namespace frustumscreen::show {
+
+/// `pack`: of the file; `whole`: its plan.
+[[nodiscard]] Result<world::SiteView> offline_site_view(const std::filesystem::path& file,
+                                                        const pack::PackDescription& pack,
+                                                        const scene::ScenePlan& whole,
+                                                        const OfflineSite& site);
+
+} // namespace frustumscreen::show

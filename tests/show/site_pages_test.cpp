@@ -1,0 +1,258 @@
+// A site of 36 regions in the artifact cache, while a visitor travels from region to region: bytes in memory, by the store and by the
+// cache, and the triangles that are drawn.
+#include "app/pack/pack_site.h"
+#include "app/pack/pack_world.h"
+#include "app/residency/artifact_cache.h"
+#include "firmware_host/display/surfaceless_display.h"
+#include "tests/render/counted_new.h"
+#include "tests/show/shown_packs.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace frustumscreen::synthetic {
+namespace {
+
+constexpr int site_rows = 6;
+constexpr std::size_t site_regions = 36;
+constexpr double site_zoom = 6.0;
+constexpr std::uint64_t no_limit = std::uint64_t{1} << 40U;
+
+/// Of two levels: the coarse one is good enough in the miniature, and not at six times its size.
+pack::Pack region_pack() {
+    pack::Pack pack = numbered_pack(0);
+    pack.levels[0].error = {4e-2F, 8e-2F, 2e-1F, 0.0F};
+    return pack;
+}
+
+/// Regions of equal size on the squares of a ground.
+pack::Pack site_pack() {
+    pack::Pack whole = numbered_pack(0);
+    pack::PackWorld world;
+    pack::PackSite site{.max_triangles = 2000, .places = {}};
+    std::vector<pack::Pack> geometry;
+    for (std::size_t k = 0; k < site_regions; ++k) {
+        geometry.push_back(region_pack());
+        const glm::dvec3 size = whole.box_size / static_cast<double>(site_rows);
+        const glm::dvec3 middle(size.x * (static_cast<double>(k % site_rows) - 2.5),
+                                size.y * (static_cast<double>(k / site_rows) - 2.5), 0.0);
+        pack::PackCell& cell = world.cells.emplace_back();
+        cell.cell.name = fmt::format("region {}", k + 1);
+        cell.cell.has_geometry = true;
+        cell.cell.parent_from_base =
+            glm::scale(glm::translate(glm::dmat4(1.0), middle), glm::dvec3(1.0 / site_rows));
+        cell.triangles = 1728;
+        cell.low = middle - glm::dvec3(0.5 * size.x, 0.5 * size.y, 0.0);
+        cell.high = middle + glm::dvec3(0.5 * size.x, 0.5 * size.y, size.z);
+        site.places.push_back(middle);
+    }
+    const Result<void> put = pack::put_world(whole, world, geometry);
+    EXPECT_TRUE(put) << put.error().message;
+    pack::put_site(site, whole);
+    return whole;
+}
+
+class SitePages : public testing::Test {
+protected:
+    void start(std::uint64_t budget, bool waits) {
+        ASSERT_TRUE(write_file(file_, pack::write_pack(site_pack()).value()));
+        scene::SceneRequest request;
+        request.light = false;
+        request.cull_kinds = scene::AllCullKinds & ~static_cast<unsigned>(scene::UnseenTriangles);
+        const settings::Settings settings = settings::steep_table();
+        residency::KnownArtifact known{
+            .file = file_, .outline = pack::outline_of(*pack::load_pack(file_).value()), .plan = {}};
+        known.plan = scene::plan_scene(settings, known.outline, request).value();
+        known.world =
+            residency::open_world(settings, file_, known.outline.description, known.plan, request).value();
+        ASSERT_TRUE(known.world && known.world->is_site);
+        ASSERT_EQ(residency::pages_of(*known.world).size(), site_regions);
+        ASSERT_TRUE(renderer_.prepare(residency::needs_of(*known.world, known.plan.needs)));
+        Result<residency::PreparedArtifact> first =
+            residency::prepare_artifact(known, "auto", 16.0, [] { return false; });
+        ASSERT_TRUE(first) << first.error().message;
+        cache_ = std::make_unique<residency::ArtifactCache>(
+            residency::ArtifactCacheSetUp{.artifacts = {known}, .budget_bytes = budget, .waits = waits},
+            *std::move(first));
+        ASSERT_TRUE(cache_->upload_first(renderer_.store()));
+        const scene::PlanView view = table_.view();
+        levels().measure(table_.prop, std::span(&view, 1), renderer_, {display_->framebuffer(), 0});
+        coarse_bytes_ = cache_->bytes();
+        cache_->start({}, table_.prop, view, table_.eye_m);
+    }
+    void TearDown() override {
+        while (cache_ && cache_->release_some(renderer_.store())) {
+        }
+    }
+    [[nodiscard]] residency::RunLevels& levels() { return *cache_->find(0); }
+    [[nodiscard]] residency::RunCells& cells() { return *cache_->find_cells(0); }
+    [[nodiscard]] static glm::dvec3 middle_of(std::size_t region) {
+        return site_pack_outline().places[region];
+    }
+    [[nodiscard]] static const pack::PackSite& site_pack_outline() {
+        static const pack::PackSite site = pack::site_of(site_pack()).value().value();
+        return site;
+    }
+    /// One frame, as ArtifactShow.
+    void draw(const std::optional<world::SiteView>& view, std::optional<std::size_t> goal) {
+        now_ += std::chrono::milliseconds(20);
+        const std::array<std::size_t, 1> wanted{0};
+        cache_->step(renderer_.store(),
+                     {.shown = 0, .shown_language = "en", .wanted = wanted, .language = "en"});
+        cells().show_site(view);
+        cells().expect_site(goal ? std::optional(residency::RunCells::Goal{
+                                       *goal, world::view_of(middle_of(*goal), site_zoom)})
+                                 : std::nullopt);
+        const scene::PlanView seen = table_.view();
+        const render::RenderTarget target{display_->framebuffer(), display_->buffer_age()};
+        const render::DrawResult drawn =
+            cells().step(now_, 1.0) ? cells().draw(now_, levels().shown(), table_.prop, std::span(&seen, 1),
+                                                   renderer_, target, render::Redraw::Changes)
+                                    : levels().draw(now_, table_.prop, std::span(&seen, 1), renderer_, target,
+                                                    render::Redraw::Changes);
+        if (drawn.drawn) {
+            ASSERT_TRUE(display_->present(now_));
+        }
+        max_bytes_ = std::max(max_bytes_, cache_->bytes());
+        max_store_bytes_ = std::max(max_store_bytes_, renderer_.store().bytes());
+        ASSERT_FALSE(cells().shows() && cells().parts().empty());
+    }
+    [[nodiscard]] std::set<std::size_t> pages_there() {
+        std::set<std::size_t> regions;
+        for (std::size_t region = 0; region < site_regions; ++region) {
+            const bool there = cells().uses()[2 * region].gpu_bytes > 0; // the finest is its first
+            if (there) {
+                regions.insert(region);
+            }
+        }
+        return regions;
+    }
+    /// Goes there from above the region before, and stays for a second.
+    void travel_to(std::size_t region, std::optional<std::size_t> from) {
+        const world::SiteView goal = world::view_of(middle_of(region), site_zoom);
+        const world::SiteView begin = from ? world::view_of(middle_of(*from), site_zoom) : world::SiteView{};
+        for (int frame = 0; frame < 40; ++frame) {
+            draw(world::between(begin, goal, frame / 40.0), region);
+        }
+        for (int frame = 0; frame < 50; ++frame) {
+            draw(goal, region);
+        }
+    }
+    static bool is_fine(const scene::Part& part) { return part.level.triangles->indices.size() > 3U * 1000; }
+    /// The share of the light that the finest level of the region in the middle has in the latest picture.
+    [[nodiscard]] float fine_share() {
+        float share = 0.0F;
+        for (const scene::Part& part : cells().parts()) {
+            if (glm::length(glm::dvec3(part.level.prop_from_placed[3])) < 1e-9 && is_fine(part)) {
+                share = !part.dither              ? 1.0F
+                        : part.dither->complement ? 1.0F - part.dither->share
+                                                  : part.dither->share;
+            }
+        }
+        return share;
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "site.fspack";
+    TestTable table_{320, 200};
+    std::unique_ptr<display::SurfacelessDisplay> display_ =
+        display::SurfacelessDisplay::create(320, 200).value();
+    render::Renderer renderer_ = render::Renderer::create(320, 200).value();
+    std::unique_ptr<residency::ArtifactCache> cache_;
+    std::uint64_t coarse_bytes_ = 0, max_bytes_ = 0, max_store_bytes_ = 0;
+    MonotonicTime now_;
+};
+
+constexpr std::array<std::size_t, 5> journey{7, 28, 0, 35, 14};
+
+TEST_F(SitePages, ComeForThePlaceAndLeaveForTheNextWithinTheBudget) {
+    start(no_limit, true);
+    draw(std::nullopt, std::nullopt);
+    EXPECT_TRUE(pages_there().empty()); // the miniature needs none
+    const std::uint64_t coarse_store_bytes = renderer_.store().bytes();
+    travel_to(journey[0], std::nullopt);
+    const std::size_t at_once = pages_there().size();
+    EXPECT_GE(at_once, 9U); // the region and its eight neighbours
+    const std::uint64_t page_bytes = (cache_->bytes() - coarse_bytes_) / at_once;
+    TearDown();
+
+    const std::uint64_t budget = coarse_bytes_ + 12 * page_bytes + page_bytes / 2;
+    max_bytes_ = max_store_bytes_ = 0;
+    start(budget, true);
+    std::optional<std::size_t> from;
+    std::set<std::size_t> ever;
+    for (const std::size_t region : journey) {
+        travel_to(region, from);
+        from = region;
+        ever.merge(pages_there());
+        EXPECT_EQ(fine_share(), 1.0F) << region;
+        EXPECT_TRUE(pages_there().contains(region)) << region;
+        EXPECT_LE(pages_there().size(), 12U) << region;
+    }
+    EXPECT_LE(max_bytes_, budget);
+    EXPECT_GT(max_bytes_, budget - page_bytes);
+    EXPECT_LT(max_store_bytes_ - coarse_store_bytes, 14 * page_bytes);
+    EXPECT_GT(ever.size(), 12U); // more than fit at once
+    EXPECT_EQ(cache_->bytes(), coarse_bytes_ + pages_there().size() * page_bytes);
+}
+
+TEST_F(SitePages, ARegionWhoseMemoryIsTooSmallStaysCoarse) {
+    start(1, true);
+    travel_to(journey[0], std::nullopt);
+    EXPECT_TRUE(pages_there().empty());
+    EXPECT_EQ(fine_share(), 0.0F);
+    EXPECT_EQ(cache_->bytes(), coarse_bytes_);
+}
+
+/// Until the reader has brought a page, its region is drawn by the coarser level; then the finer one fades in.
+TEST_F(SitePages, FadeInWhereTheCoarserLevelWas) {
+    start(no_limit, false);
+    const std::size_t region = journey[0];
+    const world::SiteView view = world::view_of(middle_of(region), site_zoom);
+    draw(view, std::nullopt); // nothing was expected
+    EXPECT_TRUE(pages_there().empty());
+    for (const scene::Part& part : cells().parts()) {
+        EXPECT_FALSE(is_fine(part));
+    }
+    float last = 0.0F;
+    int between = 0;
+    for (int frame = 0; frame < 20'000 && last < 1.0F; ++frame) {
+        draw(view, std::nullopt);
+        const float share = fine_share();
+        EXPECT_GE(share, last);
+        EXPECT_LE(share - last, 0.06F); // 20 ms of 400 ms
+        between += share > 0.0F && share < 1.0F ? 1 : 0;
+        last = share;
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    EXPECT_EQ(last, 1.0F);
+    EXPECT_GE(between, 18);
+}
+
+TEST_F(SitePages, AllocateNothingInAFrameOnceTheyAreThere) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    start(no_limit, true);
+    travel_to(journey[0], std::nullopt);
+    const world::SiteView view = world::view_of(middle_of(journey[0]), site_zoom);
+    draw(view, journey[0]);
+    const long before = allocations_so_far();
+    for (int frame = 0; frame < 20; ++frame) {
+        table_.eye_m.x += 1e-3;
+        draw(view, journey[0]);
+    }
+    EXPECT_EQ(allocations_so_far() - before, 0);
+}
+
+} // namespace
+} // namespace frustumscreen::synthetic
