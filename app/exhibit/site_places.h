@@ -1,4 +1,4 @@
-/// What lies in the place of a site's map on the table (Presentation::site_map), as TitleIndex::behaviour.
+/// The picture in the place of a site's map on the table (Presentation::site_map), as TitleIndex::behaviour.
 ///
 /// Threads  constants.
 #pragma once

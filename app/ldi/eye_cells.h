@@ -1,9 +1,9 @@
-/// The eyes of a patch in 16 cells, and for each cell the eyes at its corners. What an eye sees of a patch's points hardly differs
-/// from what the corners of its cell see.
+/// The eyes of a patch in 16 cells, and for each cell the eyes at its corners. An eye sees hardly other points of a patch than
+/// the corners of its cell see.
 ///
 /// Frames   window (triangle_world.h).
 /// Units    metres.
-/// Cells    four steps of polar angles by four of azimuths; of the centre two by eight. A cell reaches from `min_eye_share` to
+/// Cells    four steps of polar angles by four of azimuths; in the centre two by eight. A cell reaches from `min_eye_share` to
 ///          `max_eye_share` of the hemisphere's radius.
 /// Threads  values; any.
 /// Errors   none: an eye outside of the cells is in all of them.

@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    /// Of a surface that the picture sees edge-on, the own colour stays.
+    /// A surface that the picture sees edge-on keeps its own colour.
     static constexpr double min_area_px = 0.05;
 
     /// The pixel's own where the other one shows another surface.

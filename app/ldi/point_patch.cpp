@@ -77,7 +77,7 @@ FRUSTUMSCREEN_INLINE Ints first_pixels(Floats places, float count) {
     return __builtin_convertvector(relief::least(relief::most(places + 0.5F, Floats{}), all(count)), Ints);
 }
 
-/// What eight points cover.
+/// The pixels that eight points cover.
 struct Boxes {
     Ints left, right, top, bottom; ///< pixels; right and bottom excluded
     Floats seen;                   ///< nearness for the eye

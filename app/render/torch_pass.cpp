@@ -156,7 +156,8 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
         };
         rasters_.paint_nearness(view, store, asked, as_picture(shadow_map_.nearness()));
         if (is_within_any_relief(light, view)) {
-            rasters_.paint_nearness(view, store, asked, as_picture(shadow_map_.backs()), relief::Facing::Away);
+            rasters_.paint_nearness(view, store, asked, as_picture(shadow_map_.backs()),
+                                    relief::Facing::Away);
         }
     }
     const geometry::Pinhole& pinhole = view.projector;

@@ -176,7 +176,7 @@ private:
     [[nodiscard]] std::size_t end_of(std::size_t cell) const {
         return cell + 1 < cells_.size() ? cells_[cell + 1].first : options_.size();
     }
-    /// What is drawn of a cell in place of the wanted option: the same if it is there.
+    /// The option drawn of a cell in place of the wanted one: the same if it is there.
     [[nodiscard]] std::size_t nearest_there(const Cell& cell) const;
     /// The quickest option of a cell that is good enough there.
     [[nodiscard]] std::size_t option_at_goal(std::size_t cell) const;

@@ -40,7 +40,7 @@ public:
     /// right and below; where those four differ, as on a steep surface, a half of that less, a share of `slack` at most.
     void find_farthest_of_four(double slack);
 
-    /// Of surfaces that are turned away; as `nearness`. The first call since `begin` clears it.
+    /// The nearness of surfaces that are turned away. The first call since `begin` clears it.
     [[nodiscard]] std::span<float> backs();
     /// Row by row. Others may draw into it too, as far as they keep the nearer.
     [[nodiscard]] std::span<float> nearness() { return nearness_; }

@@ -74,7 +74,7 @@ struct BakeOptions {
     /// Share of the points and rays for measurements, 0..1: with fewer, a pack's errors are less exact.
     double measuring = 1.0;
     std::vector<GivenHotspot> hotspots;
-    /// What a torch shows of the artifact, without the layers' parts: those of the mesh's layers are added, one for each
+    /// The contents of a torch, without the layers' parts: those of the mesh's layers are added, one for each
     /// and in their order, so also to an artifact without contents.
     pack::PackTorches torches;
     pack::TorchParts torch_parts;

@@ -2,7 +2,7 @@
 ///
 /// The prop is square: the size depends only on the turn within a quarter. The artifact is not turned if that
 /// gives the largest possible size, within 0.5 %; otherwise it is turned by 45 degrees if that does;
-/// otherwise by the whole number of degrees at which it is largest. Of the four sides that can then face the
+/// otherwise by the whole number of degrees at which it is largest. Among the four sides that can then face the
 /// visitor, the file's own front is chosen, unless the adjacent sides cover clearly more, 10 %. So a round
 /// artifact is not turned, a chest stands straight, and a blade shows its broad side.
 ///

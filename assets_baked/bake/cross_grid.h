@@ -24,7 +24,7 @@ private:
 };
 
 /// The crossing that the direction gets from a hit anywhere on the surface: height, slopes, owner, colour;
-/// nullopt if the surface is too flat to the direction's lines or faces away. Of the hit, triangle, position
+/// nullopt if the surface is too flat to the direction's lines or faces away. The hit's triangle, position
 /// in it, point and normal are used.
 [[nodiscard]] std::optional<relief::Crossing>
 crossing_from(const BlockInput& input, const relief::ReliefGrid& grid, const SurfaceHit& hit);

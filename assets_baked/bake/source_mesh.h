@@ -43,7 +43,7 @@ struct SourceAbout {
     [[nodiscard]] bool operator==(const SourceAbout&) const = default;
 };
 
-/// What the file has, where the mesh keeps it in another form.
+/// Contents of the file that the mesh keeps in another form.
 struct SourceContents {
     std::string format;                    ///< "glTF", "GLB", "OBJ", "PLY", "STL"
     std::vector<glm::ivec2> picture_sizes; ///< of each picture of colours, texels, as in the file

@@ -3,7 +3,7 @@
 /// Method   RANSAC (Fischler and Bolles 1981) over triangles that are spread evenly over the area: the plane that holds most area,
 ///          fitted once more. It is a table if nearly all else lies on one side of it and it reaches beyond that on all sides.
 ///          The bottom of a plinth, a book or a plate reaches no farther than what stands on it.
-///          What lies lower than 0.4 % of the scan's size above the plane counts as table, a foot's lowest triangles too.
+///          Triangles lower than 0.4 % of the scan's size above the plane count as table, a foot's lowest ones too.
 /// Frame    the file's; no axis need be up.
 /// Threads  pure; any.
 #pragma once

@@ -151,7 +151,7 @@ TriangleMesh kept(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sid
     return result;
 }
 
-/// Of each triangle.
+/// The sides seen, for each triangle.
 std::vector<std::uint8_t> all_sides_seen(const TriangleMesh& mesh, const SourceScene& scene,
                                          const ViewingZone& zone) {
     glm::vec3 low(1e30F);

@@ -53,7 +53,7 @@ void check_used(settings::TableReader& table, Source source) {
     }
 }
 
-/// What the stage shows: exactly one of four keys.
+/// The source of the stage: exactly one of four keys.
 void read_source(settings::TableReader& table, ArtifactTorchStage& stage) {
     const auto count =
         std::count_if(showing.begin(), showing.end(), [&](std::string_view key) { return table.has(key); });

@@ -18,7 +18,7 @@ protected:
     void put_picture(const std::string& path, const glm::ivec2& size, const glm::u8vec4& colour) const {
         ASSERT_TRUE(write_file(folder / path, image::encode_png(image::Image8(size.x, size.y, colour))));
     }
-    /// What the check of a folder that cannot be baked says: one sentence.
+    /// The sentence of the check of a folder that cannot be baked.
     [[nodiscard]] std::string refusal_of(const std::string& name) const {
         EXPECT_EQ(run("frustumscreen-bake --check " + name), 1) << text("out.txt");
         const std::string told = text("err.txt");

@@ -53,7 +53,7 @@ struct Torch {
                 .eye_m = from});
         list_blocks(items, relief, view);
     }
-    /// Of one pixel's centre, 1 / z over that of the face; 0 without a hit.
+    /// At a pixel's centre, 1 / z over that of the face; 0 without a hit.
     [[nodiscard]] double cast(const bake::ReliefScene& scene, int x, int y) const {
         const glm::dvec3 ray((x + 0.5 - 0.5 * torch_px) / focal_px, (y + 0.5 - 0.5 * torch_px) / focal_px,
                              1.0);

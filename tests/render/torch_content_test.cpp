@@ -1,4 +1,4 @@
-// What torches throw, held against rays and the content's own definition: from a pixel's place through the prop to the surface, from there
+// Torches' contents, held against rays and the content's own definition: from a pixel's place through the prop to the surface, from there
 // into the torch's frame, and there the content by conventions.md (x to its right, y down). Nothing of app/torch is used but the data.
 
 #include "app/image/light_mips.h"

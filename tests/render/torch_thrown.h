@@ -1,4 +1,4 @@
-/// What a content throws, by its definition: conventions.md (Torch) and docs/curators.md, not app/torch's code.
+/// The light of a content, by its definition: conventions.md (Torch) and docs/curators.md, not app/torch's code.
 ///
 /// Frames   content: (0, 0) top left, (1, 1) bottom right, as the torch is held: x to its right, y down.
 /// Units    linear light.

@@ -27,7 +27,7 @@ constexpr std::size_t site_regions = 36;
 constexpr double site_zoom = 6.0;
 constexpr std::uint64_t no_limit = std::uint64_t{1} << 40U;
 
-/// Of two levels: the coarse one is good enough in the miniature, and not at six times its size.
+/// Has two levels: the coarse one is good enough in the miniature, and not at six times its size.
 pack::Pack region_pack() {
     pack::Pack pack = numbered_pack(0);
     pack.levels[0].error = {4e-2F, 8e-2F, 2e-1F, 0.0F};

@@ -1,4 +1,4 @@
-// What the status says about a torch.
+// The status of a torch.
 #include "app/show/torch_show.h"
 
 #include <gtest/gtest.h>

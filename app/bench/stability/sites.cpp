@@ -22,7 +22,7 @@ using exact::Real;
 
 constexpr double rounding = 0x1p-53;
 
-/// Of the box's places: some corners and a few more.
+/// Places of the box: some corners and a few more.
 std::vector<glm::dvec3> site_places() {
     std::vector<glm::dvec3> places{
         {0.0, 0.0, 0.0}, {-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0}, {0.5, -0.5, 0.3}, {1e-9, -1e-12, 1e-15}};

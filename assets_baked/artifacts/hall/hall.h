@@ -1,4 +1,4 @@
-/// What stands in the example hall (config/hall/room.toml) beside the two built-in artifacts.
+/// The objects of the example hall (config/hall/room.toml) beside the two built-in artifacts.
 ///
 /// An exhibit's artifacts have texts in every language (builtin.h); these have a name alone, since a room is looked at.
 /// Frame, threads   as builtin.h.

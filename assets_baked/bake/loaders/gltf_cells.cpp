@@ -111,7 +111,7 @@ std::optional<GltfCells> gltf_cells_of(const GltfModel& model, const GltfTree& t
     GltfCells made{.nodes = {}, .cell_of = {}, .skin_cell = std::nullopt, .joined = 0};
     made.cell_of.resize(model.nodes.size());
     UniqueNames names;
-    // Of each candidate: the cell that it hangs from or is, that cell's frame from its own, and its triangles' cell.
+    // For each candidate: the cell that it hangs from or is, that cell's frame from its own, and its triangles' cell.
     std::vector<std::optional<std::size_t>> nearest(candidates.size());
     std::vector<glm::dmat4> nearest_from_candidate(candidates.size(), glm::dmat4(1.0));
     std::vector<std::size_t> triangles_in(candidates.size(), 0);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// What becomes of a keyword: obj_materials.cpp shows or tells what is `Read`; what is `Shine` makes no difference in the
+/// The use of a keyword: obj_materials.cpp shows or tells what is `Read`; what is `Shine` makes no difference in the
 /// museum light; what is `Lost` is told here.
 enum class Use { Read, Shine, Lost };
 struct Keyword {
