@@ -202,10 +202,15 @@ private:
                         [](const SourceMaterial& material) { return material.alpha_mask; })) {
             return visible_sides(mesh, source_, options_.prop.zone);
         }
-        SourceMesh own = as_source(mesh);
-        add_curtains(own);
-        const std::vector<glm::dvec3> own_points = own.positions;
-        return visible_sides(mesh, SourceScene(own, own_points), options_.prop.zone);
+        const SourceMesh own = as_source(mesh);
+        const SourceScene scene(own, own.positions);
+        if (curtains_.empty()) {
+            return visible_sides(mesh, scene, options_.prop.zone);
+        }
+        SourceMesh curtained = own;
+        add_curtains(curtained);
+        return visible_region_sides(mesh, scene, SourceScene(curtained, curtained.positions),
+                                    options_.prop.zone);
     }
 
     [[nodiscard]] Surface measured(const TriangleMesh& mesh, float tolerance_box) const {

@@ -176,6 +176,17 @@ TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, c
     return kept(mesh, all_sides_seen(mesh, scene, zone));
 }
 
+TriangleMesh visible_region_sides(const TriangleMesh& mesh, const SourceScene& scene,
+                                  const SourceScene& curtained, const ViewingZone& zone) {
+    std::vector<std::uint8_t> sides = all_sides_seen(mesh, curtained, zone);
+    const std::vector<std::uint8_t> open = all_sides_seen(mesh, scene, zone);
+    for (std::size_t t = 0; t < sides.size(); ++t) {
+        const std::uint8_t upper = mesh.area_normal(t).z > 0.0F ? front : back;
+        sides[t] = static_cast<std::uint8_t>(sides[t] | (open[t] & upper));
+    }
+    return kept(mesh, sides);
+}
+
 std::vector<bool> visible_triangles(const TriangleMesh& mesh, const SourceScene& scene,
                                     const ViewingZone& zone) {
     std::vector<bool> visible;

@@ -43,10 +43,15 @@ TEST(States, a_pack_written_and_read_has_the_same_states) {
 TEST(States, of_a_pack_with_a_world_are_written_again_byte_for_byte) {
     Pack pack = samples::pack_with_world();
     ASSERT_TRUE(put_states(pack, three_states()));
-    const Bytes bytes = samples::bytes_of(pack);
+    // A pack that is read has the parts in the order of its manifest's sections, and no longer in that of the calls which put them.
+    const Result<VerifiedPack> made = verify_pack(samples::bytes_of(pack));
+    ASSERT_TRUE(made) << made.error().message;
+    const Bytes bytes = samples::bytes_of(**made);
     const Result<VerifiedPack> read = verify_pack(bytes);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(samples::bytes_of(**read), bytes);
+    EXPECT_EQ(states_of(**read).value(), three_states());
+    EXPECT_EQ((*read)->sections, (*made)->sections);
 }
 
 TEST(States, none_leave_a_pack_as_it_is_to_the_byte) {

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -37,10 +38,13 @@ struct Change {
 
 class RunWindows : public KioskFolder {
 protected:
-    void put_poses() const {
+    /// `moves_at_s`: the prop is 0.02 m farther to the right from then on.
+    void put_poses(const std::vector<double>& moves_at_s = {}) const {
         std::string text = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
         for (int k = 0; k < 120; ++k) {
-            text += fmt::format("{},1,0,0,0,1,0,0,0,1\n", 50'000 * k);
+            const auto moves = std::count_if(moves_at_s.begin(), moves_at_s.end(),
+                                             [&](double at_s) { return 0.05 * k >= at_s; });
+            text += fmt::format("{},1,{:.2f},0,0,1,0,0,0,1\n", 50'000 * k, 0.02 * static_cast<double>(moves));
         }
         put("poses.csv", text);
     }
@@ -110,7 +114,7 @@ TEST_F(RunWindows, APressPinsAWindowOfTheSettingsSizeBesideTheProp) {
 }
 
 TEST_F(RunWindows, OnesThatArePinnedOneAfterTheOtherLieSideBySideAndTwoAreThereAtMost) {
-    put_poses();
+    put_poses({0.9, 2.1}); // where the prop stays, a press pins a state of the artifact
     write_settings("replay", bare);
     run("without", 5.9);
     write_settings("replay", bare + windows_of("{ at_s = 0.3, button = 6 }, { at_s = 2.8, button = 6 }"));

@@ -59,10 +59,8 @@ public:
         const glm::dvec2 own = own_place(at.share);
         const glm::dvec2 from_middle = (own - 0.5) * glm::dvec2(1.0, height_);
         Thrown thrown{1.0, glm::dvec3(stage_.colour)};
-        const double least_line = at.pixel_mm / at.width_mm;
-        const auto is_on = [&](double away, double line) {
-            return away <= 0.5 * std::fmax(line, least_line);
-        };
+        const double min_line = at.pixel_mm / at.width_mm;
+        const auto is_on = [&](double away, double line) { return away <= 0.5 * std::fmax(line, min_line); };
         switch (stage_.source) {
         case torch::Source::Picture:
         case torch::Source::Film:
