@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Draws the README's pictures, docs/room.png and docs/visitor.webp, of the nautilus cup that ./run has baked; and
 # docs/picture_steps.webp, of the same, which needs what ./test builds; and docs/hall.png and docs/room.svg of the example
-# hall. The loop takes some minutes.
-#   docs/draw_pictures.sh [steps|hall]    steps: picture_steps.webp alone, of the built-in artifact where ./run has baked none
-#                                         hall: those of the example hall alone
+# hall; docs/windows.png of the amphora; and docs/site.webp of the hill town, which is baked as docs/sites.md says. The loops take
+# some minutes.
+#   docs/draw_pictures.sh [steps|hall|windows|site]    steps: picture_steps.webp alone, of the built-in artifact where ./run has baked
+#                                                      none; hall, windows, site: those alone
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 pack=out/packs/nautilus-cup.fspack
@@ -25,6 +26,28 @@ config=config/kiosk.toml
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
+# The prop between two windows, which were pinned from the same eye.
+draw_windows() {
+    printf '%s\n' t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok 0,1,0,0.02,0,1,0,0,0,1 0,2,0,-0.42,0.62,1,0,0,0,1 >"$folder/eye.csv"
+    sed 's/^\(width_m\|depth_m\) = .*/\1 = 0.18/' config/windows.toml >"$folder/windows.toml"
+    "$bin/frustumscreen" render --config "$folder/windows.toml" --pack out/packs/amphora.fspack --poses "$folder/eye.csv" --view visitor \
+        --pin 0.27,-0.05 --pin -0.27,-0.05 --width 520 --height 325 --out "$folder/windows"
+    cp "$folder/windows/frame_00000.png" docs/windows.png
+}
+
+# The visitor of config/site.toml goes into the town.
+draw_site() {
+    "$bin/frustumscreen" run --config config/site.toml --headless --fast --seconds 14 --stills 56 --out "$folder/site"
+    "$bin/frustumscreen-sheet" --config config/site.toml --frames "$folder/site" --animation docs/site.webp --animation-frames 56 \
+        --closed --width 360 --height 225
+}
+
+case ${1-} in
+    windows | site)
+        "draw_$1"
+        exit
+        ;;
+esac
 # The picture from the low eye at the right, in which the prop is before the screen.
 "$bin/frustumscreen" drawing --config config/hall.toml --sheet room -o docs/room.svg
 "$bin/frustumscreen" render --config config/hall.toml --pack out/packs/amphora.fspack --poses config/hall/eyes.csv --view room \
@@ -33,6 +56,9 @@ cp "$folder/hall/frame_00002.png" docs/hall.png
 if [[ ${1-} == hall ]]; then
     exit
 fi
+
+draw_windows
+[[ ! -f out/packs/hill-town.fspack ]] || draw_site
 
 # 10 s at 30 pictures a second: the prop turns once and slides in an eight, the eye goes to and fro, all back to the beginning.
 awk 'BEGIN {
