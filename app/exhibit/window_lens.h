@@ -1,7 +1,7 @@
 /// Through the lens: while it is on, the newest window's content follows the prop. Turning the prop about the vertical turns it;
 /// lifting the prop or drawing it near makes it larger, lowering it or pushing it away smaller.
 ///
-/// Ends     when the prop was moved and has been still for `still`; when nobody has moved it for `waits`; at any press;
+/// Ends     after `still` without motion, once the prop has moved; after `waits`, if it has not moved; at any press;
 ///          without a pose of the prop.
 /// Units    metres, radians.
 /// Time     `now` never goes back.

@@ -1,4 +1,4 @@
-/// Which tiles of a picture somebody asks for.
+/// A set of tiles of a picture: those whose pixels the caller needs.
 ///
 /// Units    tiles of 8 x 8 pixels of a picture of at most 512 x 512, counted from its first pixel.
 /// Threads  values; any.

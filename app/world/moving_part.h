@@ -21,7 +21,7 @@ namespace frustumscreen::world {
 /// How long a part takes from where it is to rest, or to another curve.
 inline constexpr double return_s = 0.6;
 
-/// The motion that a part follows. Both are somebody else's, and outlive it.
+/// The motion that a part follows. The caller owns both; they outlive the part.
 struct Driver {
     const Behaviour* behaviour = nullptr;
     const Channel* channel = nullptr;

@@ -78,16 +78,12 @@ public:
     [[nodiscard]] Result<void> check() const { return check_surface(welded_); }
     [[nodiscard]] const std::vector<glm::dvec3>& points() const { return points_; }
     [[nodiscard]] const SourceScene& source() const { return source_; }
-    /// In the box.
-    void add_curtains(SourceMesh& mesh) const {
-        for (const CurtainTriangle& curtain : curtains_) {
-            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-            for (const glm::dvec3& corner : curtain) {
-                mesh.positions.emplace_back(frame_.box_from_file * glm::dvec4(corner, 1.0));
-            }
-            mesh.triangles.push_back({first, first + 1, first + 2});
-            mesh.triangle_materials.push_back(0);
-        }
+    /// The errors that are seen of a region of a site.
+    [[nodiscard]] pack::SeenErrors seen_in_region(const pack::Pack& pack) const {
+        SourceMesh curtains = as_source({});
+        add_curtains(curtains);
+        return seen_region_errors(pack, source_, SourceScene(curtains, curtains.positions),
+                                  options_.prop.zone, options_.measuring);
     }
     [[nodiscard]] const pack::LevelError& reduction() const { return reduction_; }
 
@@ -194,6 +190,18 @@ public:
     }
 
 private:
+    /// In the box.
+    void add_curtains(SourceMesh& mesh) const {
+        for (const CurtainTriangle& curtain : curtains_) {
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (const glm::dvec3& corner : curtain) {
+                mesh.positions.emplace_back(frame_.box_from_file * glm::dvec4(corner, 1.0));
+            }
+            mesh.triangles.push_back({first, first + 1, first + 2});
+            mesh.triangle_materials.push_back(0);
+        }
+    }
+
     /// The mesh itself decides what is hidden. If the source did, parts of a simplified surface slightly
     /// outside it would seem visible. Only if alpha cuts holes must the source decide.
     [[nodiscard]] TriangleMesh seen_sides(const TriangleMesh& mesh) const {
@@ -401,13 +409,9 @@ Result<pack::Pack> bake_region(const SourceMesh& mesh, const BakeOptions& option
     begin_stage(options, stages::choice);
     pack.samples = samples_needed(bakery.source(), pack.box_size, mm_per_box(pack, options.prop),
                                   options.prop.zone, options.measuring);
-    SourceMesh curtain_mesh = as_source({});
-    bakery.add_curtains(curtain_mesh);
-    const SourceScene curtain_scene(curtain_mesh, curtain_mesh.positions);
     pack::SeenErrors seen =
-        options.of_site
-            ? seen_region_errors(pack, bakery.source(), curtain_scene, options.prop.zone, options.measuring)
-            : seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
+        options.of_site ? bakery.seen_in_region(pack)
+                        : seen_errors(pack, cast, bakery.source(), options.prop.zone, options.measuring);
     add_reduction(bakery.reduction(), seen);
     pack::put_seen_errors(seen, pack);
     pack.default_level = choose_default(pack, seen, options.prop);
