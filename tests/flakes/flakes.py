@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Looks for tests that fail now and then; `./test flakes` calls this. Exit status 1: something failed.
 
-Each test of `ctest` passes 20 runs beside six busy loops, three tests at a time; then the emulated machines start five times
-(./test hil, ./test image), and all of continuous integration runs three times. out/flakes remembers what has passed, run by run, and a
+Each test of `ctest` passes 20 runs beside six busy loops, three tests at a time, and five runs under each sanitizer that continuous
+integration has it under; then the emulated machines start five times (./test hil, ./test image), and all of continuous integration runs
+three times. out/flakes remembers what has passed, run by run, and a
 hunt that was ended goes on there. The emulated machines and continuous integration begin anew with another commit, or with another
 change of the working tree. A test of ctest begins anew when its inputs change, which one more run, under strace, tells (inputs.py).
-A test that asks git, or that cannot run under strace, begins anew with a commit, too. Tests that never passed all their runs come
+A test that asks git, or that cannot run under strace, as with a sanitizer, begins anew with a commit, too. Tests that never passed all their runs come
 first, and among these the ones with threads.
 
 Left out are tests that compute and do nothing else: how busy the machine is cannot change their result. The label 'computes' says so of
@@ -17,6 +18,7 @@ disassembly have a call of a clock or of random numbers, apart from GoogleTest's
 import argparse
 import concurrent.futures
 import hashlib
+import json
 import os
 import pathlib
 import signal
@@ -32,6 +34,7 @@ sys.path.append(os.fspath(ROOT / "tests" / "hil"))
 from repeat import Load  # noqa: E402  (the folder is only now known)
 
 STATE = ROOT / "out" / "flakes"
+SANITIZERS = {"asan": "outside", "tsan": "threads"}  # preset -> label of the tests that ./test runs with it
 
 
 def output_of(*command):
@@ -45,6 +48,13 @@ def commit():
     if changes:
         name += "-" + hashlib.sha256(changes).hexdigest()[:8]
     return name
+
+
+def environment(preset):
+    """What CMakePresets.json sets for the tests of a preset."""
+    presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["testPresets"]
+    found, = (entry for entry in presets if entry["name"] == preset)
+    return {name: value.replace("${sourceDir}", os.fspath(ROOT)) for name, value in found["environment"].items()}
 
 
 class Runs:
@@ -74,8 +84,8 @@ class Runs:
         self.failed.append(name)
 
 
-def hunt_tests(hunt, places, loops, parallel):
-    tests = list(tests_of(places))
+def hunt_tests(hunt, places, loops, parallel, label=None):
+    tests = [test for test in tests_of(places) if label is None or label in test.labels]
     labelled = [test for test in tests if "computes" in test.labels]
     waiting = hunt.waiting(test for test in tests if test not in labelled)
     left_out = len(labelled) + len(hunt.only_compute)
@@ -93,6 +103,7 @@ def hunt_tests(hunt, places, loops, parallel):
 def main():
     parser = argparse.ArgumentParser(prog="./test flakes", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--times", metavar="N", type=int, default=20, help="runs of each test of ctest (20)")
+    parser.add_argument("--sanitized", metavar="N", type=int, default=5, help="runs of each test under a sanitizer (5)")
     parser.add_argument("--loops", metavar="N", type=int, default=6, help="busy loops beside them (6)")
     parser.add_argument("--parallel", metavar="N", type=int, default=3, help="tests of ctest at a time (3)")
     parser.add_argument("--boots", metavar="N", type=int, default=5, help="runs of the emulated machines (5)")
@@ -105,13 +116,20 @@ def main():
     places = Places(ROOT, ROOT / "build" / "release", ROOT.parent / "shared", git)
     hunt = Hunt(places, STATE / "tests", commit(), arguments.times)
     hunt_tests(hunt, places, arguments.loops, arguments.parallel)
+    failed = hunt.failed
+    for preset, label in SANITIZERS.items() if arguments.sanitized else ():
+        print(f"== with the preset {preset}", flush=True)
+        places = Places(ROOT, ROOT / "build" / preset, ROOT.parent / "shared", git)
+        hunt = Hunt(places, STATE / preset, commit(), arguments.sanitized, environment(preset))
+        hunt_tests(hunt, places, arguments.loops, arguments.parallel, label)
+        failed += [f"{name} ({preset})" for name in hunt.failed]
     runs = Runs(STATE / commit())
     for number in range(1, arguments.boots + 1):
         runs.make(f"hil {number}", ["./test", "hil"])
         runs.make(f"image {number}", ["./test", "image"])
     for number in range(1, arguments.ci + 1):
         runs.make(f"ci {number}", [".ci/run"])
-    failed = hunt.failed + runs.failed
+    failed += runs.failed
     print(f"== {len(failed)} failed" + "".join(f"\n   {name}" for name in failed))
     return 1 if failed else 0
 

@@ -43,8 +43,8 @@ class MadeUpRepository(unittest.TestCase):
         file = self.counted / name
         return len(file.read_text(encoding="utf-8").splitlines()) if file.exists() else 0
 
-    def hunt(self, times=TIMES, commit="first"):
-        made = hunt.Hunt(self.places, self.root / "out" / "flakes", commit, times)
+    def hunt(self, times=TIMES, commit="first", sanitizer=None):
+        made = hunt.Hunt(self.places, self.root / "out" / "flakes", commit, times, sanitizer)
         with contextlib.redirect_stdout(io.StringIO()):
             for test in made.waiting(hunt.tests_of(self.places)):
                 made.make(test)
@@ -101,6 +101,13 @@ class Failures(MadeUpRepository):
         self.assertEqual(self.hunt().untraced, ["traces"])
         self.assertEqual(self.new_runs(["traces"]), [0])
         self.assertEqual(self.new_runs(["traces"], commit="second"), [1 + TIMES])
+
+    def test_with_a_sanitizer_it_has_its_environment_and_is_remembered_by_commit(self):
+        self.add_script("sanitized", 'test "$OPTIONS" = halt && test -z "$FRUSTUMSCREEN_UNDER"')
+        self.assertEqual(self.hunt(sanitizer={"OPTIONS": "other"}).failed, ["sanitized"])
+        self.assertEqual(self.new_runs(["sanitized"], sanitizer={"OPTIONS": "halt"}), [TIMES])
+        self.assertEqual(self.new_runs(["sanitized"], sanitizer={"OPTIONS": "halt"}), [0])
+        self.assertEqual(self.new_runs(["sanitized"], sanitizer={"OPTIONS": "halt"}, commit="second"), [TIMES])
 
     def test_what_asks_git_is_remembered_by_commit(self):
         (self.root.parent / "git").mkdir()
