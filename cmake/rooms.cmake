@@ -128,13 +128,14 @@ endif()
 # A GoogleTest program of one room; working directory is its own build folder.
 #   OUTSIDE, THREADS  it belongs to the above
 #   WAITS             it mostly waits, for a time of a device or for another program
+#   COST              about its seconds, of a long one: it begins early also where ctest has not yet seen how long each takes
 #   APART             sources whose unnamed namespace has a name of another source of the test
 #   COMPUTING         cases of a test with OUTSIDE or THREADS that compute for long on one thread, from what the test itself makes. They
 #                     look for wrong numbers and pictures, which no sanitizer sees, and take ten times as long under one; other cases run
 #                     the same code there. So with a sanitizer they are a test of their own without labels, NAME_computing, which
 #                     `./test asan --all` and `./test tsan --all` run.
 function(frustumscreen_test name)
-    cmake_parse_arguments(TEST "OUTSIDE;THREADS;WAITS" "" "SOURCES;APART;USES;LABELS;COMPUTING" ${ARGN})
+    cmake_parse_arguments(TEST "OUTSIDE;THREADS;WAITS" "COST" "SOURCES;APART;USES;LABELS;COMPUTING" ${ARGN})
     if(TEST_OUTSIDE OR TEST_THREADS)
         list(APPEND TEST_LABELS outside)
         add_dependencies(outside ${name})
@@ -161,6 +162,9 @@ function(frustumscreen_test name)
     # Of the five slots that ./test has on two cores: a test that mostly waits takes one, and runs beside two that compute.
     if(NOT TEST_WAITS)
         set_tests_properties(${name} PROPERTIES PROCESSORS 2)
+    endif()
+    if(TEST_COST)
+        set_tests_properties(${name} PROPERTIES COST ${TEST_COST})
     endif()
     if(TEST_LABELS)
         set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}")
