@@ -1,7 +1,6 @@
 /// RasterPass: torches on what it has painted.
-#include "app/render/raster_pass.h"
-
 #include "app/render/face_pass.h"
+#include "app/render/raster_pass.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
