@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/exhibit/states.h"
+#include "app/status/describe_devices.h"
 #include "app/status/metric.h"
 #include "app/status/status_report.h"
 #include "firmware_host/service/watchdog_policy.h"
@@ -21,11 +22,6 @@ inline constexpr std::array all_healths{service::Health::Well, service::Health::
                                         service::Health::Hangs};
 /// Millimetres, to 0.1 micrometre: a finest level is off by less than a micrometre.
 inline constexpr Digits error_digits{1.0, 1e4};
-/// Metres in the report, millimetres in the file.
-inline constexpr Digits thousandths{1e3, 1e3};
-/// Parts of one in the report, of a million in the file.
-inline constexpr Digits millionths{1e6, 1e3};
-
 inline Metric share_of_frames(std::string_view share) {
     return {.name = "frame_time_seconds",
             .help = "The time within which this share of the latest pictures was drawn.",
@@ -51,44 +47,6 @@ void set_fields(auto& fields, auto& set, bool library_hangs) {
     });
     fields.field("of_ended_keys", set.of_ended_keys);
     fields.field("trouble", trouble_of(set, library_hangs));
-}
-
-/// The same fields as in the importer's own file.
-void import_fields(auto& fields, auto& report) {
-    fields.field("import_id", report.import_id);
-    fields.field("stick", report.stick);
-    fields.choice("stage", report.stage, library::import_stage_names);
-    fields.field("done_bytes", report.done_bytes);
-    fields.field("total_bytes", report.total_bytes);
-    fields.choice("refusal", report.refusal, library::import_refusal_names);
-    fields.field("reason", report.reason);
-    fields.field("set_number", report.set_number);
-    fields.objects("packs", report.packs, {}, Metric{}, [](auto& item, auto& pack) {
-        item.field("file", pack.file);
-        item.field("title", pack.title);
-        item.choice("outcome", pack.outcome, library::import_outcome_names);
-        item.choice("refusal", pack.refusal, library::import_refusal_names);
-        item.field("reason", pack.reason);
-    });
-}
-
-void tracker_fields(auto& fields, auto& counts) {
-    fields.field("connections", counts.connections, {},
-                 Metric{"tracker_connections_total", "How often a tracker was opened."});
-    fields.field("frames", counts.frames, {},
-                 Metric{"tracker_samples_total", "Samples of the tracker that were taken."});
-    fields.field("lost", counts.lost, {},
-                 Metric{"tracker_samples_lost_total", "Samples that never came, by their numbers."});
-    fields.field("duplicated", counts.duplicated);
-    fields.field("reordered", counts.reordered);
-    fields.field("strange", counts.strange);
-    fields.field("unusable", counts.unusable);
-    fields.field("broken", counts.broken, {},
-                 Metric{"tracker_samples_broken_total", "How often bytes were thrown away."});
-    fields.field("clock_restarts", counts.clock_restarts);
-    fields.field("clock_drift_ppm", counts.clock_drift, {},
-                 Metric{"tracker_clock_drift_ratio", "How much slower the tracker's clock runs."},
-                 millionths);
 }
 
 void written_fields(auto& fields, auto& status) {
@@ -256,163 +214,6 @@ void drawing_fields(auto& fields, auto& status) {
     fields.field("device_errors", status.device_errors,
                  "samples that were no pose, and questions to a device that it answered with an error",
                  Metric{"device_errors_total", "Errors that devices answered with."});
-}
-
-/// `device`: the key, a literal.
-void condition_fields(auto& fields, const char* device, auto& report) {
-    fields.object(device, {}, [&](auto& inner) {
-        inner.field("ok", report.ok, {},
-                    Metric{.name = "device_ok",
-                           .help = "1: this device, which the settings ask for, can be used.",
-                           .scale = 1.0,
-                           .label = "device",
-                           .of = device});
-        inner.field("impaired", report.impaired);
-        inner.field("id", report.id);
-    });
-}
-
-void device_fields(auto& fields, auto& status) {
-    fields.object(
-        "devices",
-        "`display`, `screen`, `tracker`, `camera`, `panel` and `sound`, of each `ok`, whether it can be used "
-        "(`null`: "
-        "the "
-        "settings ask for none); `impaired`, it can, and something about it is to be put right; `id`, the "
-        "short name of the sentence that it says below",
-        [&](auto& devices) {
-            condition_fields(devices, "display", status.devices.display);
-            condition_fields(devices, "screen", status.devices.screen);
-            condition_fields(devices, "tracker", status.devices.tracker);
-            condition_fields(devices, "camera", status.devices.camera);
-            condition_fields(devices, "panel", status.devices.panel);
-            condition_fields(devices, "sound", status.devices.sound);
-        });
-    fields.field("display", status.display,
-                 "how the projector is, in one sentence; empty: there is nothing to say");
-    fields.field(
-        "screen", status.screen,
-        "how the screen behind the table is, in one sentence; empty: there is none, or nothing to say");
-    fields.object_or_null(
-        "screen_picture", status.screen_picture,
-        "what the screen shows: `health`, as above, of this output alone; `code` and `shown_code`, as of the "
-        "projector's picture; pictures `presented`, and of these `drawn` anew; `held_up`, display times at "
-        "which it had "
-        "not shown the picture before; `frame_ms`, as above. `null`: the settings have no screen",
-        Metric{}, [](auto& inner, auto& picture) {
-            inner.field("health", picture.health);
-            inner.field("code", picture.code);
-            inner.field("shown_code", picture.shown_code);
-            inner.field(
-                "presented", picture.presented, {},
-                Metric{"screen_pictures_total", "Pictures presented to the screen behind the table."});
-            inner.field("drawn", picture.drawn);
-            inner.field("held_up", picture.held_up, {},
-                        Metric{"screen_held_up_total", "Display times at which the screen was not ready."});
-            inner.object("frame_ms", {}, [&](auto& times) {
-                times.field("p50", picture.frame_ms.p50);
-                times.field("p95", picture.frame_ms.p95);
-                times.field("p99", picture.frame_ms.p99);
-            });
-        });
-    fields.field("tracker", status.tracker,
-                 "how the tracker is, or what moves the prop in its place; empty: the prop stands");
-    fields.field("tracker_hangs", status.tracker_hangs,
-                 "the tracker is plugged in and does not do what it should: it is silent, refuses its "
-                 "set-up, cannot be opened, or reports a fault of its own. A reset of its port may help");
-    fields.object("tracker_counts",
-                  "since the start: `connections`, how often a tracker was opened; `frames` taken; `lost`, "
-                  "`duplicated`, `reordered` frames, by their numbers; `strange`, numbers far from what was "
-                  "due; `unusable` poses; `broken`, how often bytes were thrown away, mostly for a wrong "
-                  "checksum; `clock_restarts`, jumps of the tracker's clock; and `clock_drift_ppm`, how much "
-                  "slower it runs than ours",
-                  [&](auto& counts) { tracker_fields(counts, status.tracker_counts); });
-    fields.field("camera", status.camera, "how the camera is that looks at the table; empty: none does");
-    fields.field("camera_hz", status.camera_hz, "frames a second that came from it of late",
-                 status.camera.view().empty()
-                     ? Metric{}
-                     : Metric{"camera_frames_hertz", "Frames a second that come from the camera."});
-    fields.field("camera_for", status.camera_for,
-                 "what it is used for: `the prop's tags` ([tags.md](tags.md)), `the picture's place` "
-                 "([calibration.md](calibration.md#drift)), `the visitor's eye` "
-                 "([visitor_eye.md](visitor_eye.md)), or several of them; empty: nothing");
-    fields.field("drift", status.drift,
-                 "whether the picture lies where it was calibrated, as the camera sees it, in one sentence; "
-                 "empty: nothing looks (`camera.drift`)");
-    fields.field("drift_mm", status.drift_m,
-                 "how far it lies beside that: median of the latest looks; `null`: nothing looks",
-                 Metric{"drift_meters", "How far the picture lies beside where it was calibrated."},
-                 thousandths);
-    fields.field("drifted", status.drifted, "it is to be put right: by more than 2 mm, over five looks",
-                 status.drift.view().empty() ? Metric{}
-                                             : Metric{"drifted", "1: the picture is to be put right."});
-    fields.field("prop_by", status.prop_by,
-                 "whose pose of the prop is shown: `tracker` or `tags`; empty: the prop stands");
-    fields.field("hand_overs", status.hand_overs,
-                 "how often the tags took over from the tracker, or it from them");
-    fields.object_or_null("torch", status.torch,
-                          "the torch that was taken last ([torch.md](torch.md)): `by`, `tracker` (its "
-                          "station 3) or `tag` (a lamp that a camera "
-                          "sees), empty: neither is seen; `state`: `lit`; `past`, it points past the object; "
-                          "`too_far`, it points at it from "
-                          "beyond its reach; `dark`, nothing is shown that it could light; `laid_down`; "
-                          "`lost`, its place is not known; `content`, "
-                          "what the one in the hand throws, by its name in the pack, or `white`. `null`: the "
-                          "settings have no torch",
-                          Metric{}, [](auto& inner, auto& torch) {
-                              inner.field("by", torch.by);
-                              inner.field("state", torch.state);
-                              inner.field("content", torch.content);
-                          });
-    fields.field("panel", status.panel,
-                 "how the buttons are, or what presses in their place; empty: there are none");
-    fields.field("sound", status.sound, "how the loudspeaker is; empty: there is nothing to say aloud");
-    fields.field("sound_underruns", status.sound_underruns, "how often the sound card had nothing to play",
-                 Metric{"sound_underruns_total", "How often the sound card had nothing to play."});
-    fields.field("recording", status.recording,
-                 "how `--record` fares, or why nothing is recorded; empty: nothing was asked for");
-    fields.object_or_null(
-        "import", status.import,
-        "what was done with the latest stick since the machine was started, as the importer's "
-        "report has it: `import_id`, another one for each stick; `stick`, its label; `stage`, one "
-        "of `found`, `copying`, `may_take_out`, `done`, `failed`; `done_bytes` of `total_bytes`; "
-        "`refusal` and `reason` of the stick as a whole; `set_number`, the set that is installed; "
-        "`packs`, each with `file`, `title`, `outcome` (`pending`, `taken`, `already_there`, "
-        "`refused`, `removed`; of a report on the kiosk `written`, `not_written`), `refusal` and `reason`. "
-        "`null`: there was none",
-        Metric{}, [](auto& inner, auto& report) { import_fields(inner, report); });
-    fields.object_or_null("visits", status.visits,
-                          "of visitors, numbers alone ([counts.md](counts.md)): visits that began `today` "
-                          "and `since_start`, and how long they "
-                          "lasted, `today_s`, `since_start_s`; `trouble`, why the numbers cannot be kept. "
-                          "`null`: they are not counted",
-                          Metric{}, [](auto& inner, auto& visits) {
-                              inner.field("today", visits.today);
-                              inner.field("since_start", visits.since_start, {},
-                                          Metric{"visits_total", "Visits since the exhibit was started."});
-                              inner.field("today_s", visits.today_s);
-                              inner.field("since_start_s", visits.since_start_s, {},
-                                          Metric{"visits_seconds_total", "How long they lasted together."});
-                              inner.field("trouble", visits.trouble);
-                          });
-    fields.field("prop_known", status.prop_known, "the prop's place is known now",
-                 Metric{"prop_known", "1: the prop's place is known."});
-    fields.field("head_known", status.head_known,
-                 "a sensor on the visitor's head says where it is now; else see `eye_by`",
-                 Metric{"head_known", "1: the visitor's head is known."});
-    fields.field("eye_by", status.eye_by,
-                 "source of the visitor's eye: `sensor` on the head, `camera`, or `settings`: "
-                 "none, it is `eye.default_m`");
-    fields.field("eye_sd_mm", status.eye_sd_m,
-                 "how far an eye by the camera may be off across its line to the prop, RMS on each axis; "
-                 "`null`: it is by another",
-                 {}, thousandths);
-    fields.field("uptime_s", status.uptime_s, "seconds since everything was loaded",
-                 Metric{"uptime_seconds", "Time since everything was loaded."});
-    fields.field("resident_mib", status.resident_mib, "memory that the program takes, MiB",
-                 Metric{.name = "resident_memory_bytes",
-                        .help = "Memory that the exhibit takes.",
-                        .scale = 1024.0 * 1024.0});
 }
 
 void all_status_fields(auto& fields, auto& status) {

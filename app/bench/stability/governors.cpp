@@ -114,7 +114,7 @@ StabilityResult constant_loads(const StabilityOptions&) {
         }
     }
     return {
-        {{"ends at a rung outside its hysteresis", 0.0, wrong},
+        {{"ends at a level outside its hysteresis", 0.0, wrong},
          {"changes, after 1000 frames of 20000", 0.0, late_changes},
          {"changes in all, at one load", 2.0 * static_cast<double>(gpu.quality_levels.size()), max_changes}}};
 }

@@ -171,7 +171,7 @@ StabilityResult quality_level_response(const StabilityOptions&) {
         off_shared = std::fmax(off_shared, std::abs(other - (total - own)) / one_step);
     }
     result.rows.push_back(
-        {"expected of the rung: off the exact response, of each step", rounding_of_step, off});
+        {"expected of the level: off the exact response, of each step", rounding_of_step, off});
     result.rows.push_back({"expected of the others: off, in shares of two steps", 0.2, off_shared});
     return result;
 }
@@ -263,7 +263,8 @@ std::vector<StabilityCase> smoother_cases() {
             {theme, "step response, the same", FloatingPoint::Strict, step_response},
             {theme, "goals that jump, the same", FloatingPoint::Strict, no_overshoot},
             {theme, "frame times: the load doubles", FloatingPoint::Strict, load_responses},
-            {theme, "frame times: a rung was measured wrong", FloatingPoint::Strict, quality_level_response},
+            {theme, "frame times: a quality level was measured wrong", FloatingPoint::Strict,
+             quality_level_response},
             {theme, "frame times: garbage", FloatingPoint::Free, garbage}};
 }
 

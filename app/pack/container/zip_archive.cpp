@@ -1,11 +1,11 @@
 #include "app/pack/container/zip_archive.h"
 
+#include "app/pack/container/archive_bytes.h"
 #include "app/pack/container/limits.h"
 #include "firmware_host/base/byte_reader.h"
 #include "firmware_host/base/printable.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <unzip.h>
 #include <zip.h>
 
@@ -15,23 +15,6 @@
 #include <cstring>
 
 namespace frustumscreen::pack {
-
-/// The bytes that the library reads and writes, and its cursor in them.
-struct ArchiveBytes {
-    ArchiveBytes() = default;
-    ArchiveBytes(const ArchiveBytes&) = delete;
-    ArchiveBytes& operator=(const ArchiveBytes&) = delete;
-    virtual ~ArchiveBytes() = default;
-    [[nodiscard]] virtual std::uint64_t size() const = 0;
-    /// `out` must lie inside.
-    [[nodiscard]] virtual bool read(std::uint64_t offset, std::span<std::byte> out) = 0;
-    [[nodiscard]] virtual bool write(std::uint64_t /*offset*/, std::span<const std::byte> /*in*/) {
-        return false;
-    }
-
-    std::uint64_t cursor = 0;
-    bool failed = false; ///< bytes that should exist could not be read
-};
 
 namespace {
 
@@ -43,156 +26,6 @@ constexpr uLong encrypted_flag = 1;
 constexpr std::uint64_t max_deflate_ratio = 1032;
 constexpr std::size_t end_record_bytes = 22;
 constexpr std::size_t through_step_bytes = 64U << 10U;
-
-struct GrowingBytes final : ArchiveBytes {
-    Bytes bytes;
-
-    [[nodiscard]] std::uint64_t size() const override { return bytes.size(); }
-    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
-        std::memcpy(out.data(), bytes.data() + offset, out.size());
-        return true;
-    }
-    [[nodiscard]] bool write(std::uint64_t offset, std::span<const std::byte> in) override {
-        bytes.resize(std::max<std::size_t>(bytes.size(), offset + in.size()));
-        std::memcpy(bytes.data() + offset, in.data(), in.size());
-        return true;
-    }
-};
-
-struct WrittenFile final : ArchiveBytes {
-    explicit WrittenFile(int descriptor) : file(descriptor) {}
-    int file;
-    std::uint64_t end = 0;
-    int fault = 0; ///< errno
-
-    [[nodiscard]] std::uint64_t size() const override { return end; }
-    /// The library only writes, and seeks back to write.
-    [[nodiscard]] bool read(std::uint64_t /*offset*/, std::span<std::byte> /*out*/) override { return false; }
-    [[nodiscard]] bool write(std::uint64_t offset, std::span<const std::byte> in) override {
-        while (!in.empty()) {
-            const ssize_t written = ::pwrite(file, in.data(), in.size(), static_cast<off_t>(offset));
-            if (written < 0 && errno == EINTR) {
-                continue;
-            }
-            if (written <= 0) {
-                fault = written < 0 ? errno : EIO;
-                return false;
-            }
-            offset += static_cast<std::uint64_t>(written);
-            in = in.subspan(static_cast<std::size_t>(written));
-        }
-        end = std::max(end, offset);
-        return true;
-    }
-};
-
-struct ViewedBytes final : ArchiveBytes {
-    explicit ViewedBytes(std::span<const std::byte> bytes) : view(bytes) {}
-    std::span<const std::byte> view;
-
-    [[nodiscard]] std::uint64_t size() const override { return view.size(); }
-    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
-        std::memcpy(out.data(), view.data() + offset, out.size());
-        return true;
-    }
-};
-
-/// The library reads a directory byte by byte, and searches for its end backwards; a window aligned to whole
-/// steps avoids a system call for each byte.
-class FileBytes final : public ArchiveBytes {
-public:
-    explicit FileBytes(OpenFile file) : file_(std::move(file)) {}
-
-    [[nodiscard]] std::uint64_t size() const override { return file_.bytes(); }
-    [[nodiscard]] bool read(std::uint64_t offset, std::span<std::byte> out) override {
-        if (out.size() > step_bytes) {
-            failed = failed || !file_.read(offset, out);
-            return !failed;
-        }
-        if (offset < begin_ || offset + out.size() > begin_ + window_.size()) {
-            begin_ = offset / step_bytes * step_bytes;
-            window_.resize(std::min<std::uint64_t>(2 * step_bytes, file_.bytes() - begin_));
-            if (!file_.read(begin_, window_)) {
-                window_.clear();
-                failed = true;
-                return false;
-            }
-        }
-        std::memcpy(out.data(), window_.data() + (offset - begin_), out.size());
-        return true;
-    }
-
-private:
-    static constexpr std::size_t step_bytes = 8192;
-    OpenFile file_;
-    Bytes window_;
-    std::uint64_t begin_ = 0;
-};
-
-ArchiveBytes& bytes_of(voidpf opaque) {
-    return *static_cast<ArchiveBytes*>(opaque);
-}
-
-voidpf open_bytes(voidpf opaque, const void*, int) {
-    return opaque;
-}
-
-uLong read_bytes(voidpf opaque, voidpf, void* out, uLong size) {
-    ArchiveBytes& bytes = bytes_of(opaque);
-    const std::uint64_t left = bytes.size() - std::min(bytes.cursor, bytes.size());
-    const std::uint64_t count = std::min<std::uint64_t>(size, left);
-    if (count > 0 && !bytes.read(bytes.cursor, {static_cast<std::byte*>(out), count})) {
-        return 0;
-    }
-    bytes.cursor += count;
-    return count;
-}
-
-uLong write_bytes(voidpf opaque, voidpf, const void* in, uLong size) {
-    ArchiveBytes& bytes = bytes_of(opaque);
-    if (size > 0 && !bytes.write(bytes.cursor, {static_cast<const std::byte*>(in), size})) {
-        return 0;
-    }
-    bytes.cursor += size;
-    return size;
-}
-
-ZPOS64_T tell_cursor(voidpf opaque, voidpf) {
-    return bytes_of(opaque).cursor;
-}
-
-long seek_cursor(voidpf opaque, voidpf, ZPOS64_T offset, int origin) {
-    ArchiveBytes& bytes = bytes_of(opaque);
-    const std::uint64_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? bytes.cursor
-                               : origin == ZLIB_FILEFUNC_SEEK_END ? bytes.size()
-                                                                  : 0;
-    const std::uint64_t target = from + offset;
-    if (target < from || target > bytes.size()) {
-        return -1;
-    }
-    bytes.cursor = target;
-    return 0;
-}
-
-int close_bytes(voidpf, voidpf) {
-    return 0;
-}
-int no_error(voidpf, voidpf) {
-    return 0;
-}
-
-zlib_filefunc64_def functions_over(ArchiveBytes& bytes) {
-    zlib_filefunc64_def functions{};
-    functions.zopen64_file = open_bytes;
-    functions.zread_file = read_bytes;
-    functions.zwrite_file = write_bytes;
-    functions.ztell64_file = tell_cursor;
-    functions.zseek64_file = seek_cursor;
-    functions.zclose_file = close_bytes;
-    functions.zerror_file = no_error;
-    functions.opaque = &bytes;
-    return functions;
-}
 
 /// An entry is at the start of the file, the end record at its end, and the directory ends where that record
 /// begins (APPNOTE.TXT 4.3.16): nothing was cut off, prepended or appended.
