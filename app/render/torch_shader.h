@@ -318,13 +318,23 @@ void main() {
 }
 )";
 
-/// The shadow map of depths that the GPU has drawn: of each texel and the next ones to the right and below, the farthest.
+/// The shadow map of depths that the GPU has drawn: of each texel and the next ones to the right and below, the farthest. A texel
+/// whose first surface is turned away, by more than the slack before others, is dark from the torch on (torch::ShadowMap).
 inline constexpr std::string_view farthest_depths = R"(
 uniform highp sampler2D depths;
+uniform highp sampler2D backs;
+uniform highp vec3 inverse_z; // of a depth: factor, offset; slack
+uniform ivec4 raster;         // x = 1: there are backs
+float depth_at(ivec2 at) {
+    float depth = texelFetch(depths, at, 0).r;
+    float back = raster.x == 1 ? texelFetch(backs, at, 0).r : 1.0;
+    bool is_back = back * inverse_z.x + inverse_z.y > (1.0 + inverse_z.z) * (depth * inverse_z.x + inverse_z.y);
+    return back < 1.0 && is_back ? 0.0 : depth;
+}
 void main() {
     ivec2 low = clamp(ivec2(gl_FragCoord.xy), ivec2(0), textureSize(depths, 0) - 2);
-    gl_FragDepth = max(max(texelFetch(depths, low, 0).r, texelFetch(depths, low + ivec2(1, 0), 0).r),
-                       max(texelFetch(depths, low + ivec2(0, 1), 0).r, texelFetch(depths, low + ivec2(1, 1), 0).r));
+    gl_FragDepth = max(max(depth_at(low), depth_at(low + ivec2(1, 0))),
+                       max(depth_at(low + ivec2(0, 1)), depth_at(low + ivec2(1, 1))));
 }
 )";
 
