@@ -78,7 +78,7 @@ Result<void> TorchPass::make_targets() {
         target.framebuffer = gl::GlFramebuffer::generate();
         target.depth = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
         target.colour = make_texture(GL_RGBA8, GL_LINEAR);
-        target.nearness = make_texture(GL_R32F, GL_NEAREST);
+        target.nearness = make_texture(GL_RG32F, GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, drawn_depth_.get(),
@@ -162,13 +162,13 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
                              std::span(view.indices).subspan(draw.range.first, draw.range.count));
         }
     }
-    shadow_map_.find_farthest_of_four(slack_of(light));
+    shadow_map_.find_farthest(slack_of(light));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target.nearness.get());
-    const std::span<const float> first =
-        shadow_map_.nearness().subspan(static_cast<std::size_t>(bounds.y * px + bounds.x));
+    const std::span<const torch::ShadowMap::Farthest> first =
+        shadow_map_.farthest().subspan(static_cast<std::size_t>(bounds.y * px + bounds.x));
     glPixelStorei(GL_UNPACK_ROW_LENGTH, px);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, bounds.x, bounds.y, bounds.width, bounds.height, GL_RED, GL_FLOAT,
+    glTexSubImage2D(GL_TEXTURE_2D, 0, bounds.x, bounds.y, bounds.width, bounds.height, GL_RG, GL_FLOAT,
                     first.data());
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }

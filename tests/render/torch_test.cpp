@@ -308,7 +308,10 @@ TEST(Torch, BetweenTheWallsOfACrateLightsWhatRaysSay) {
                 glm::dvec3(crate.prop_from_placed * glm::dvec4(place, 1.0)));
             const glm::dvec3 towards = still.table.table_from_prop.direction({1.0, 0.1 * pose - 0.4, -0.8});
             const std::array torches{torch_of(looking(from, from + towards), wide_beam())};
-            Compared(still.world, still.table, torches, way == Way::Mesh ? of_mesh : of_relief)
+            Compared(still.world, still.table, torches,
+                     cut_outs           ? of_cut_outs
+                     : way == Way::Mesh ? of_mesh
+                                        : of_relief)
                 .count(still.lit_by({}), still.lit_by(torches), counts);
         }
         std::printf("crate %d%s: %zu lit, %zu dark, excused %zu, %zu; %zu wrong\n", static_cast<int>(way),
