@@ -323,8 +323,8 @@ void end_list(BlockItems& items) {
 }
 
 void list_blocks(BlockItems& items, const BlockRelief& relief, const RasterView& view,
-                 Instructions instructions) {
-    begin_list(items, relief, view);
+                 Instructions instructions, Facing facing) {
+    begin_list(items, relief, view, facing);
     for (std::size_t part = 0; part < items.parts.size(); ++part) {
         list_part(items, relief, view, part, instructions);
     }

@@ -70,6 +70,6 @@ void end_list(BlockItems& items);
 
 /// All three steps, for `relief` as seen in `view`.
 void list_blocks(BlockItems& items, const BlockRelief& relief, const RasterView& view,
-                 Instructions instructions = best_instructions());
+                 Instructions instructions = best_instructions(), Facing facing = Facing::Eye);
 
 } // namespace frustumscreen::relief

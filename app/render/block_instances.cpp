@@ -55,7 +55,7 @@ BlockInstances::BlockInstances() {
     glBindVertexArray(0);
 }
 
-void BlockInstances::list(const scene::FramePlan& plan, const GpuStore& store) {
+void BlockInstances::list(const scene::FramePlan& plan, const GpuStore& store, relief::Facing facing) {
     instances_.clear();
     runs_.clear();
     for (std::size_t relief_draw = 0; relief_draw < plan.relief_draw_count; ++relief_draw) {
@@ -65,7 +65,7 @@ void BlockInstances::list(const scene::FramePlan& plan, const GpuStore& store) {
         if (relief == nullptr) {
             continue;
         }
-        relief::list_blocks(items_, *relief, planned.view);
+        relief::list_blocks(items_, *relief, planned.view, relief::best_instructions(), facing);
         for (std::size_t face = 0; face < planned.view.faces.size(); ++face) {
             const std::size_t first = instances_.size();
             for (const relief::BlockItem& item : items_.sorted) {

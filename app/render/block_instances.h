@@ -1,6 +1,6 @@
 /// The blocks of a plan's reliefs that the GPU draws, as instances, and their draw calls (block_shader.h).
 ///
-/// The processor lists the blocks that may face the eye and lie in the picture (relief/block_items.h), on
+/// The processor lists the blocks that may face the eye, or are turned away, and lie in the picture (relief/block_items.h), on
 /// each face front to back. The GPU draws all 8 x 8 cells of each, two triangles a cell, split along the
 /// diagonal from (1, 0) to (0, 1), as on the processor.
 ///
@@ -25,7 +25,7 @@ class BlockInstances {
 public:
     BlockInstances();
     /// Lists the plan's reliefs that are in the store and that the GPU draws.
-    void list(const scene::FramePlan& plan, const GpuStore& store);
+    void list(const scene::FramePlan& plan, const GpuStore& store, relief::Facing facing);
     /// Draws a relief's blocks for `draw`, one of the plan's draws, with `shader`, which must be in use.
     /// `places_from_box`: to the frame of the places that the shader takes.
     void draw(const scene::FramePlan& plan, const scene::Draw& draw, const glm::dmat4& places_from_box,

@@ -1,5 +1,7 @@
 #include "app/render/block_upload.h"
 
+#include "app/image/image.h"
+
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 
@@ -105,6 +107,22 @@ std::uint64_t gpu_bytes(const relief::BlockRelief& relief) {
 std::uint32_t max_blocks_on_gpu() {
     const auto along = static_cast<std::uint32_t>(max_texels() / relief::block_corners);
     return along * along;
+}
+
+gl::GlTexture upload_block_colours(const relief::BlockRelief& relief, std::span<const glm::u8vec4> colours) {
+    const int columns = side_of(relief.blocks.size());
+    const int wide = relief::block_corners * columns;
+    image::Image8 sheet(wide, relief::block_corners * rows_of(relief.blocks.size(), columns));
+    for (std::size_t k = 0; k < colours.size(); ++k) {
+        const auto block = static_cast<int>(k / corners);
+        const auto corner = static_cast<int>(k % corners);
+        sheet.at(block % columns * relief::block_corners + corner % relief::block_corners,
+                 block / columns * relief::block_corners + corner / relief::block_corners) = colours[k];
+    }
+    gl::GlTexture texture = make_texture(GL_RGBA8, sheet.width, sheet.height, GL_LINEAR);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sheet.width, sheet.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                    sheet.texels.data());
+    return texture;
 }
 
 /// Allocates the textures and uploads the covers, which are a small part of the data.

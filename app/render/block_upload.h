@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 
 namespace frustumscreen::render {
@@ -34,6 +35,10 @@ struct BlockSheet {
 
 /// GPU memory of a relief, bytes.
 [[nodiscard]] std::uint64_t gpu_bytes(const relief::BlockRelief& relief);
+
+/// Other colours of the same blocks at once, laid out as `colours` above, with their own alpha. `colours`: in the order of the relief's.
+[[nodiscard]] gl::GlTexture upload_block_colours(const relief::BlockRelief& relief,
+                                                 std::span<const glm::u8vec4> colours);
 
 class BlockUpload {
 public:

@@ -85,7 +85,7 @@ bool FacePass::draws(const scene::FramePlan& plan) {
 }
 
 int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-                   const Raster& raster, Output output) {
+                   const Raster& raster, Output output, relief::Facing facing) {
     const Shader* const outline = shaders.find({scene::ShaderKey::Pass::Outline});
     if (!draws(plan) || outline == nullptr) {
         return 0;
@@ -94,11 +94,11 @@ int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const Sh
     glEnable(GL_SCISSOR_TEST);
     mark_faces(plan, *outline, raster);
     upload_indices(plan);
-    blocks_.list(plan, store);
+    blocks_.list(plan, store, facing);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
+    glCullFace(facing == relief::Facing::Eye ? GL_BACK : GL_FRONT);
     int calls = outline_calls(plan);
     for (const scene::Draw& draw : plan.draws) {
         if (draw.shader.pass != scene::ShaderKey::Pass::Surface) {
@@ -126,6 +126,7 @@ int FacePass::draw(const scene::FramePlan& plan, const GpuStore& store, const Sh
     if (output == Output::Colours) {
         calls += soften_edges(plan, shaders, raster);
     }
+    glCullFace(GL_BACK);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);

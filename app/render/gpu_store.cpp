@@ -175,6 +175,10 @@ void GpuStore::add_layer(scene::Drawable& drawable, std::size_t layer,
         colours = std::make_shared<const std::vector<glm::u8vec4>>(mixed(relief->colours, *colours));
     }
     release(drawable.layers[layer]);
+    if (const Blocks* const blocks = find_blocks(drawable.mesh)) {
+        drawable.layers[layer] = keep(upload_block_colours(*blocks->relief, *colours), 0);
+        return;
+    }
     drawable.layers[layer] = scene::TextureId{++last_};
     colours_.emplace(drawable.layers[layer], std::move(colours));
 }

@@ -115,7 +115,7 @@ RasterPass::Upload RasterPass::layers_of_torches() const {
     return upload;
 }
 
-void RasterPass::list_reliefs(const scene::FramePlan& plan, const GpuStore& store) {
+void RasterPass::list_reliefs(const scene::FramePlan& plan, const GpuStore& store, relief::Facing facing) {
     seen_.clear();
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
         const scene::ReliefDraw& planned = plan.relief_draws[k];
@@ -125,7 +125,8 @@ void RasterPass::list_reliefs(const scene::FramePlan& plan, const GpuStore& stor
             seen_.push_back({.relief = relief,
                              .view = &planned.view,
                              .dither = planned.dither,
-                             .light = light_.rest_of(planned.light)});
+                             .light = light_.rest_of(planned.light),
+                             .facing = facing});
         }
     }
 }
@@ -207,7 +208,7 @@ bool RasterPass::paint_points(const scene::FramePlan& plan) {
 }
 
 void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth_of,
-                       Rectangles rectangles) {
+                       Rectangles rectangles, relief::Facing facing) {
     copied_.clear();
     drawn_.clear();
     in_depth_.clear();
@@ -219,7 +220,7 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
     if (paint_points(plan)) {
         return;
     }
-    list_reliefs(plan, store);
+    list_reliefs(plan, store, facing);
     if (depth_of == Depth::Everywhere) {
         meeting_.assign(1, {.x = 0, .y = 0, .width = memory_.width, .height = memory_.height});
     } else {
@@ -337,10 +338,7 @@ int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) c
 void RasterPass::paint_nearness(const scene::FramePlan& plan, const GpuStore& store,
                                 const relief::TileMask& asked, const relief::PictureSpan<float>& nearness,
                                 relief::Facing facing) {
-    list_reliefs(plan, store);
-    for (relief::SeenRelief& seen : seen_) {
-        seen.facing = facing;
-    }
+    list_reliefs(plan, store, facing);
     painter_->paint_nearness(seen_, asked, nearness);
 }
 

@@ -42,7 +42,7 @@ public:
     /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws. Everywhere: all of it is to be
     /// shown by `show_in_depth`. AreDrawn: `show` keeps what lies between their pixels. A plan of points has nothing else.
     void paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth = Depth::WhereItMeets,
-               Rectangles rectangles = Rectangles::MayBeCopied);
+               Rectangles rectangles = Rectangles::MayBeCopied, relief::Facing facing = relief::Facing::Eye);
     /// Draws those parts of the painted reliefs that meet the GPU's draws, into the bound framebuffer, in which FacePass
     /// has drawn them; returns the number of draw calls.
     int show_in_depth(const scene::FramePlan& plan, const ShaderCache& shaders, const Raster& raster) const;
@@ -82,7 +82,7 @@ private:
 
     /// Paints the plan's points; false: it has none.
     [[nodiscard]] bool paint_points(const scene::FramePlan& plan);
-    void list_reliefs(const scene::FramePlan& plan, const GpuStore& store);
+    void list_reliefs(const scene::FramePlan& plan, const GpuStore& store, relief::Facing facing);
     void find_meeting(const scene::FramePlan& plan);
     void find_lit(const scene::FramePlan& plan, const GpuStore& store);
     void begin_lighting() const;

@@ -47,8 +47,9 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "edges"};
 
 /// In the order of the texture units that they read (GpuStore::Texture, GpuStore::Blocks, RasterPass, torch_uniforms.h).
-constexpr std::array<const char*, 9> sampler_names{"image",   "blocks", "covers",        "nearness", "shadow",
-                                                   "content", "layer",  "seen_by_torch", "depths"};
+constexpr std::array<const char*, 10> sampler_names{"image",  "blocks",  "covers", "nearness",
+                                                    "shadow", "content", "layer",  "seen_by_torch",
+                                                    "depths", "backs"};
 
 } // namespace
 

@@ -34,26 +34,9 @@ bool is_within(const scene::TorchLight& light, const scene::PlacedLevel& level) 
     return glm::all(glm::greaterThanEqual(torch, box.low)) && glm::all(glm::lessThanEqual(torch, box.high));
 }
 
-bool is_within_any_relief(const scene::TorchLight& light, const scene::FramePlan& view) {
-    return std::any_of(view.casters.begin(), view.casters.end(), [&](const scene::Part& part) {
-        return part.level.relief != nullptr && is_within(light, part.level);
-    });
-}
-
-/// The triangles of a part that the torch sees from the front; if it may be within the part, all.
-std::span<const std::uint32_t> cast_triangles(const scene::TorchLight& light, const scene::FramePlan& view,
-                                              std::size_t part) {
-    const scene::PlacedLevel& level = view.casters[part].level;
-    if (!level.triangles || level.drawable.material.cut_out) {
-        return {};
-    }
-    if (is_within(light, level)) {
-        return level.triangles->indices;
-    }
-    const auto draw = std::find_if(view.draws.begin(), view.draws.end(),
-                                   [part](const scene::Draw& each) { return each.part == part; });
-    return draw != view.draws.end() ? std::span(view.indices).subspan(draw->range.first, draw->range.count)
-                                    : std::span<const std::uint32_t>();
+bool is_within_any(const scene::TorchLight& light, const scene::FramePlan& view) {
+    return std::any_of(view.casters.begin(), view.casters.end(),
+                       [&](const scene::Part& part) { return is_within(light, part.level); });
 }
 
 /// The tiles of a beam's picture that its light may meet: of a round one those around its circle and within.
@@ -90,11 +73,12 @@ Result<void> TorchPass::make_targets() {
     targets_.resize(torch::max_torches);
     pictures_.reserve(torch::max_torches);
     drawn_depth_ = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
+    drawn_backs_ = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
     for (Target& target : targets_) {
         target.framebuffer = gl::GlFramebuffer::generate();
         target.depth = make_texture(GL_DEPTH24_STENCIL8, GL_NEAREST);
         target.colour = make_texture(GL_RGBA8, GL_LINEAR);
-        target.nearness = make_texture(GL_R32F, GL_NEAREST);
+        target.nearness = make_texture(GL_RG32F, GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.colour.get(), 0);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, drawn_depth_.get(),
@@ -127,6 +111,10 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
             continue;
         }
         const bool on_processor = scene::is_found_on_processor(view);
+        const bool is_within = is_within_any(light, view);
+        if (!on_processor && is_within) {
+            calls += draw_view(view, target, store, shaders, false, relief::Facing::Away);
+        }
         if (!on_processor || shows_own_view(light)) {
             calls += draw_view(view, target, store, shaders, shows_own_view(light));
         }
@@ -135,7 +123,7 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
             picture.shadow = target.nearness.get();
             picture.inverse_z = light.inverse_z_of_nearness;
         } else {
-            calls += find_farthest(target, shaders);
+            calls += find_farthest(light, target, shaders, is_within);
         }
     }
     set_channels(glm::bvec3(true));
@@ -155,7 +143,7 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
             return relief::PictureSpan<float>{.first = rows.data(), .width = px, .height = px, .stride = px};
         };
         rasters_.paint_nearness(view, store, asked, as_picture(shadow_map_.nearness()));
-        if (is_within_any_relief(light, view)) {
+        if (is_within_any(light, view)) {
             rasters_.paint_nearness(view, store, asked, as_picture(shadow_map_.backs()),
                                     relief::Facing::Away);
         }
@@ -163,35 +151,38 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
     const geometry::Pinhole& pinhole = view.projector;
     const glm::dmat3 picture_from_ray(pinhole.fx, 0.0, 0.0, 0.0, pinhole.fy, 0.0, pinhole.cx, pinhole.cy,
                                       1.0);
-    for (std::size_t part = 0; part < view.casters.size(); ++part) {
-        const scene::PlacedLevel& level = view.casters[part].level;
-        const std::span<const std::uint32_t> indices = cast_triangles(light, view, part);
-        if (!indices.empty()) {
+    for (const scene::Draw& draw : view.draws) {
+        const scene::PlacedLevel& level = view.casters[draw.part].level;
+        if (level.triangles) {
             shadow_map_.draw({.picture_from_model = picture_from_ray * glm::dmat4x3(light.torch_from_prop *
                                                                                     level.prop_from_box()),
                               .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x),
                               .from_within = is_within(light, level)},
-                             level.triangles->positions, indices);
+                             level.triangles->positions,
+                             std::span(view.indices).subspan(draw.range.first, draw.range.count));
         }
     }
-    shadow_map_.find_farthest_of_four(slack_of(light));
+    shadow_map_.find_farthest(slack_of(light));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target.nearness.get());
-    const std::span<const float> first =
-        shadow_map_.nearness().subspan(static_cast<std::size_t>(bounds.y * px + bounds.x));
+    const std::span<const torch::ShadowMap::Farthest> first =
+        shadow_map_.farthest().subspan(static_cast<std::size_t>(bounds.y * px + bounds.x));
     glPixelStorei(GL_UNPACK_ROW_LENGTH, px);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, bounds.x, bounds.y, bounds.width, bounds.height, GL_RED, GL_FLOAT,
+    glTexSubImage2D(GL_TEXTURE_2D, 0, bounds.x, bounds.y, bounds.width, bounds.height, GL_RG, GL_FLOAT,
                     first.data());
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
 int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
-                         const ShaderCache& shaders, bool colours) {
+                         const ShaderCache& shaders, bool colours, relief::Facing facing) {
     constexpr Raster whole{};
     if (view.relief_draw_count > 0) {
-        rasters_.paint(view, store, RasterPass::Depth::Everywhere);
+        rasters_.paint(view, store, RasterPass::Depth::Everywhere, RasterPass::Rectangles::MayBeCopied,
+                       facing);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.get());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D,
+                           facing == relief::Facing::Eye ? drawn_depth_.get() : drawn_backs_.get(), 0);
     set_viewport({scene::torch_picture_px, scene::torch_picture_px}, whole);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
@@ -202,12 +193,13 @@ int TorchPass::draw_view(const scene::FramePlan& view, const Target& target, con
     glClearDepthf(1.0F);
     glClearStencil(static_cast<GLint>(stencil_value(0))); // its only face is the whole picture
     glClear((colours ? GL_COLOR_BUFFER_BIT : 0U) | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-    const int calls = faces_.draw(view, store, shaders, whole);
+    const int calls = faces_.draw(view, store, shaders, whole, FacePass::Output::Colours, facing);
     const int reliefs = view.relief_draw_count > 0 ? rasters_.show_in_depth(view, shaders, whole) : 0;
     return calls + reliefs;
 }
 
-int TorchPass::find_farthest(const Target& target, const ShaderCache& shaders) const {
+int TorchPass::find_farthest(const scene::TorchLight& light, const Target& target, const ShaderCache& shaders,
+                             bool has_backs) const {
     const Shader* const shader = shaders.find({scene::ShaderKey::Pass::FarthestDepths});
     if (shader == nullptr) {
         return 0;
@@ -218,7 +210,11 @@ int TorchPass::find_farthest(const Target& target, const ShaderCache& shaders) c
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);
     bind(depths_unit, drawn_depth_.get());
+    bind(backs_unit, drawn_backs_.get());
     shader->use();
+    glUniform3f(shader->location(Uniform::InverseZ), light.inverse_z_of_depth.x, light.inverse_z_of_depth.y,
+                static_cast<float>(slack_of(light)));
+    glUniform4i(shader->location(Uniform::Raster), has_backs ? 1 : 0, 0, 0, 0);
     glBindVertexArray(no_attributes_.get());
     constexpr int px = scene::torch_picture_px;
     const PixelRectangle whole{.x = 0, .y = 0, .width = px, .height = px};
@@ -272,7 +268,9 @@ int TorchPass::light_pixels(const Lit& lit) const {
 }
 
 std::uint64_t TorchPass::bytes() const {
-    std::uint64_t bytes = rasters_.bytes() + (targets_.empty() ? 0 : bytes_of_texture(drawn_depth_));
+    std::uint64_t bytes =
+        rasters_.bytes() +
+        (targets_.empty() ? 0 : bytes_of_texture(drawn_depth_) + bytes_of_texture(drawn_backs_));
     for (const Target& target : targets_) {
         bytes += bytes_of_texture(target.depth) + bytes_of_texture(target.colour) +
                  bytes_of_texture(target.nearness);

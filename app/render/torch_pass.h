@@ -52,15 +52,17 @@ private:
     /// texture.
     void cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
                    const relief::TileMask& asked, const Target& target, const GpuStore& store);
-    /// Draws all that the torch sees, with its colours or without. Returns the number of draw calls.
+    /// Draws all that the torch sees, with its colours or without; or the depths of what is turned away from it. Returns the number
+    /// of draw calls.
     int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
-                  const ShaderCache& shaders, bool colours);
+                  const ShaderCache& shaders, bool colours, relief::Facing facing = relief::Facing::Eye);
 
-    /// Makes the shadow map of the depths in the target. Returns the number of draw calls.
-    int find_farthest(const Target& target, const ShaderCache& shaders) const;
+    /// Makes the shadow map of what was drawn. Returns the number of draw calls.
+    int find_farthest(const scene::TorchLight& light, const Target& target, const ShaderCache& shaders,
+                      bool has_backs) const;
 
-    gl::GlTexture drawn_depth_;   ///< of one torch after the other
-    std::vector<Target> targets_; ///< empty: there are no torches
+    gl::GlTexture drawn_depth_, drawn_backs_; ///< of one torch after the other
+    std::vector<Target> targets_;             ///< empty: there are no torches
     std::vector<TorchPicture> pictures_;
     FacePass faces_;
     RasterPass rasters_;

@@ -2,10 +2,10 @@
 ///
 /// Exact for each fragment. A fragment that the torch does not light is discarded, so that blending leaves it as it is.
 ///
-/// Shadow   a place is lit if it is not behind the farthest of the four depths around it in the torch's own picture, which the
-///          shadow map has found once for all of its pixels: a texel has that of itself and the next ones to the right and below. On a
-///          plane the nearness is linear between texels, so the place itself is never behind all four; a shadow's edge is
-///          right within one pixel of that picture.
+/// Shadow   a place is lit if it is not behind the farthest of the three nearest depths around it in the torch's own picture, which
+///          the shadow map has found once for all of its pixels (torch::ShadowMap::Farthest); of what the GPU has drawn, of the four.
+///          On a plane the nearness is linear between texels and the place lies between them, so it is never behind all; a shadow's
+///          edge is right within one pixel of that picture.
 /// Colour   linear light, for a framebuffer that encodes. Light: added to the surface times its own colour; over: mixed by
 ///          alpha.
 /// Threads  values; any.
@@ -51,9 +51,12 @@ float intensity_at(float square) { // of the way
 bool is_shaded(vec2 at, float z) { return false; }
 #else
 bool is_shaded(vec2 at, float z) {
-    ivec2 low = ivec2(at * (0.5 * SHADOW_PX) + (0.5 * SHADOW_PX - 0.5)); // a texel holds the farthest of four
-    float seen = texelFetch(shadow, clamp(low, ivec2(0), ivec2(int(SHADOW_PX) - 2)), 0).r * inverse_z.x + inverse_z.y;
-    return z * seen * (1.0 - inverse_z.z) > 1.0;
+    vec2 place = at * (0.5 * SHADOW_PX) + (0.5 * SHADOW_PX - 0.5);
+    ivec2 low = clamp(ivec2(place), ivec2(0), ivec2(int(SHADOW_PX) - 2));
+    vec2 farthest = texelFetch(shadow, low, 0).rg; // of four; without one of them, in the two lowest bits, or 0
+    ivec2 away = ivec2(lessThan(place - vec2(low), vec2(0.5)));
+    bool is_away = farthest.g > 0.0 && (floatBitsToInt(farthest.g) & 3) == away.x + 2 * away.y;
+    return z * ((is_away ? farthest.g : farthest.r) * inverse_z.x + inverse_z.y) * (1.0 - inverse_z.z) > 1.0;
 }
 #endif
 
@@ -318,13 +321,23 @@ void main() {
 }
 )";
 
-/// The shadow map of depths that the GPU has drawn: of each texel and the next ones to the right and below, the farthest.
+/// The shadow map of depths that the GPU has drawn: of each texel and the next ones to the right and below, the farthest. A texel
+/// whose first surface is turned away, by more than the slack before others, is dark from the torch on (torch::ShadowMap).
 inline constexpr std::string_view farthest_depths = R"(
 uniform highp sampler2D depths;
+uniform highp sampler2D backs;
+uniform highp vec3 inverse_z; // of a depth: factor, offset; slack
+uniform ivec4 raster;         // x = 1: there are backs
+float depth_at(ivec2 at) {
+    float depth = texelFetch(depths, at, 0).r;
+    float back = raster.x == 1 ? texelFetch(backs, at, 0).r : 1.0;
+    bool is_back = back * inverse_z.x + inverse_z.y > (1.0 + inverse_z.z) * (depth * inverse_z.x + inverse_z.y);
+    return back < 1.0 && is_back ? 0.0 : depth;
+}
 void main() {
     ivec2 low = clamp(ivec2(gl_FragCoord.xy), ivec2(0), textureSize(depths, 0) - 2);
-    gl_FragDepth = max(max(texelFetch(depths, low, 0).r, texelFetch(depths, low + ivec2(1, 0), 0).r),
-                       max(texelFetch(depths, low + ivec2(0, 1), 0).r, texelFetch(depths, low + ivec2(1, 1), 0).r));
+    gl_FragDepth = max(max(depth_at(low), depth_at(low + ivec2(1, 0))),
+                       max(depth_at(low + ivec2(0, 1)), depth_at(low + ivec2(1, 1))));
 }
 )";
 

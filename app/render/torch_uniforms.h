@@ -36,7 +36,8 @@ void bind(unsigned unit, unsigned texture);
 [[nodiscard]] unsigned texture_of_framebuffer(unsigned attachment);
 
 /// Texture units of torch_shader.h.
-inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7, depths_unit = 8;
+inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7, depths_unit = 8,
+                          backs_unit = 9;
 
 /// The share of z by which nothing shades itself: half a pixel of the torch's picture, the depth of a surface that bends within a
 /// pixel.

@@ -193,6 +193,7 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
     for (std::size_t k = 0; k < torch::max_torches; ++k) {
         FramePlan& view = plan.torch_views.emplace_back(make_plan(surface, indices, parts));
         view.surface = surface;
+        view.front.keep_backs_from_within();
         view.casters.reserve(parts);
     }
 }

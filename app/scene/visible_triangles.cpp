@@ -8,6 +8,16 @@ namespace frustumscreen::scene {
 
 namespace {
 
+bool is_within(const glm::vec3& eye, const LevelTriangles& level) {
+    glm::vec3 low(std::numeric_limits<float>::infinity());
+    glm::vec3 high = -low;
+    for (const LevelTriangles::Extent& extent : level.extents) {
+        low = glm::min(low, extent.low);
+        high = glm::max(high, extent.high);
+    }
+    return glm::all(glm::greaterThanEqual(eye, low)) && glm::all(glm::lessThanEqual(eye, high));
+}
+
 bool looks_away(const glm::dvec3& eye, const pack::PackCluster& cluster) {
     const glm::dvec3 to_apex = glm::dvec3(cluster.cone_apex) - eye;
     // A small tolerance keeps cones that are stored as floats on the safe side.
@@ -126,15 +136,17 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
     level_ = &level;
     eye_box_ = eye_box;
     const glm::vec3 eye(eye_box);
+    const bool both_sides = keeps_backs_ && is_within(eye, level);
     // Upper bound of the products' rounding error, for an eye at any distance.
     const float slack =
-        edge_on_box + 4.0F * std::numeric_limits<float>::epsilon() * (1.0F + glm::length(eye));
+        both_sides ? std::numeric_limits<float>::infinity()
+                   : edge_on_box + 4.0F * std::numeric_limits<float>::epsilon() * (1.0F + glm::length(eye));
     indices_.resize(level.indices.size());
     first_.clear();
     std::uint32_t* out = indices_.data();
     for (const pack::PackCluster& cluster : level.clusters) {
         first_.push_back(static_cast<std::size_t>(out - indices_.data()));
-        if (looks_away(eye_box, cluster)) {
+        if (!both_sides && looks_away(eye_box, cluster)) {
             continue;
         }
         const std::size_t end = (cluster.first_index + cluster.index_count) / 3;

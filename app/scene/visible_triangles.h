@@ -63,6 +63,8 @@ class FrontTriangles {
 public:
     /// Reserves memory for levels of up to `indices` indices.
     void reserve(std::size_t indices);
+    /// From now on an eye within the box around a level sees its triangles from behind too.
+    void keep_backs_from_within() { keeps_backs_ = true; }
     /// Discards the triangles found so far.
     void forget() { level_ = nullptr; }
     /// Finds the triangles again if the eye or the level has changed. A triangle within rounding of edge-on
@@ -74,6 +76,7 @@ public:
 
 private:
     const LevelTriangles* level_ = nullptr;
+    bool keeps_backs_ = false;
     glm::dvec3 eye_box_{0.0};
     std::vector<std::uint32_t> indices_;
     std::vector<std::size_t> first_; ///< start of each cluster in `indices_`, and the end

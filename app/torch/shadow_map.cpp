@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -123,20 +124,32 @@ std::span<float> ShadowMap::backs() {
     return backs_;
 }
 
-void ShadowMap::find_farthest_of_four(double slack) {
+void ShadowMap::find_farthest(double slack) {
     const auto nearer = static_cast<float>(1.0 + slack);
     for (std::size_t k = 0; has_backs_ && k < nearness_.size(); ++k) {
         nearness_[k] = backs_[k] > nearer * nearness_[k] ? dark_nearness : nearness_[k];
     }
     constexpr float share_of_range = 0.5F;
     const auto max_share = static_cast<float>(slack);
+    farthest_.resize(nearness_.size());
     for (int y = 0; y + 1 < height_; ++y) {
-        float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_;
+        const float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_;
         const float* const below = row + width_;
+        Farthest* const out = farthest_.data() + static_cast<std::ptrdiff_t>(y) * width_;
         for (int x = 0; x + 1 < width_; ++x) {
-            const float farthest = std::min(std::min(row[x], row[x + 1]), std::min(below[x], below[x + 1]));
-            const float nearest = std::max(std::max(row[x], row[x + 1]), std::max(below[x], below[x + 1]));
-            row[x] = farthest - std::min(share_of_range * (nearest - farthest), max_share * farthest);
+            const float a = row[x], b = row[x + 1], c = below[x], d = below[x + 1];
+            const float above_far = std::min(a, b), above_near = std::max(a, b);
+            const float below_far = std::min(c, d), below_near = std::max(c, d);
+            const float nearest = std::max(above_near, below_near);
+            const float first = std::min(above_far, below_far);
+            const float second = std::min(std::max(above_far, below_far), std::min(above_near, below_near));
+            const std::uint32_t which = above_far <= below_far ? (a <= b ? 0U : 1U) : (c <= d ? 2U : 3U);
+            const auto lower = [&](float farthest) {
+                return farthest - std::min(share_of_range * (nearest - farthest), max_share * farthest);
+            };
+            const float without = lower(second);
+            out[x] = {lower(first),
+                      std::bit_cast<float>((std::bit_cast<std::uint32_t>(without) & ~3U) | which)};
         }
     }
 }

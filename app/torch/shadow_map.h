@@ -35,10 +35,20 @@ public:
     /// `indices`: three for each triangle, which has two sides.
     void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
-    /// Ends the map. A pixel whose first surface is turned away, by more than the share `slack` before others, is dark from the torch
-    /// on: its light is inside an object there. Then in place of each pixel's nearness the least of it and of the next ones to the
-    /// right and below; where those four differ, as on a steep surface, a half of that less, a share of `slack` at most.
-    void find_farthest_of_four(double slack);
+    /// Ends the map: finds `farthest`. A pixel whose first surface is turned away, by more than the share `slack` before others, is
+    /// dark from the torch on: its light is inside an object there.
+    void find_farthest(double slack);
+    /// What a place between the middles of a pixel and the next ones to the right and below is compared with: the three middles next
+    /// to it, between which it lies.
+    struct Farthest {
+        float of_four = 0.0F; ///< the least nearness of all
+        /// The least of all but one, or 0: the two lowest bits say which one: 0 the pixel, 1 to the right, 2 below, 3 both. For
+        /// places away from that one; for others it is the same as of all.
+        float without_one = 0.0F;
+    };
+    /// Row by row, without the last column and row. Both are less by half of what their middles differ, as on a steep surface, a share
+    /// of `slack` at most.
+    [[nodiscard]] std::span<const Farthest> farthest() const { return farthest_; }
 
     /// The nearness of surfaces that are turned away. The first call since `begin` clears it.
     [[nodiscard]] std::span<float> backs();
@@ -64,6 +74,7 @@ private:
 
     int width_ = 0, height_ = 0;
     std::vector<float> nearness_, backs_;
+    std::vector<Farthest> farthest_;
     bool has_backs_ = false;
     std::vector<Corner> corners_;
     float *clockwise_ = nullptr, *others_ = nullptr; ///< where the view's triangles go: one of the two above

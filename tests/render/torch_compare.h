@@ -24,11 +24,13 @@ struct Counts {
 /// The error of a drawing.
 struct Tolerance {
     double eye_px = 1.0 / 32.0; ///< of the projector: outlines of what is seen
-    double torch_px = 1.42; ///< of the torch's picture: the four depths around a place lie within a diagonal
+    double torch_px = 1.12;     ///< of the torch's picture: the three depths next to a place lie within it
     double place_m = 1e-5;
     double margin_m = 1e-4;
 };
 inline constexpr Tolerance of_mesh{};
+/// Of what the GPU draws of a torch's picture the four depths around a place count.
+inline constexpr Tolerance of_cut_outs{.torch_px = 1.42};
 /// A relief of so few texels lies up to one texel off its outline.
 inline constexpr Tolerance of_relief{.eye_px = 1.5, .torch_px = 4.0, .place_m = 1e-3, .margin_m = 6e-4};
 

@@ -148,13 +148,14 @@ TEST(Torch, SeveralSamplesAPixelAreRightAwayFromEdges) {
            .samples = 4});
 }
 
-/// The ball and the post at one pose.
+/// Objects at one pose.
 struct Still {
-    Interlocked world{geometry::make_frustum({}), ball_and_post(), 1, {}, 160, true};
+    Interlocked world;
     TestTable table = table_of({});
 
-    explicit Still(Way way, unsigned seed = 5) {
-        world.choose(std::array{way, way, way});
+    explicit Still(Way way, unsigned seed = 5, const std::vector<WorldObject>& objects = ball_and_post())
+        : world(geometry::make_frustum({}), objects, 1, {}, 160, true) {
+        world.choose(std::vector(objects.size(), way));
         for (scene::Part& part : world.parts) {
             part.level.light = glm::vec3(base_light);
         }
@@ -217,10 +218,33 @@ TEST(Torch, ThatLightsNothingChangesNoByte) {
     }
 }
 
-/// In the plate, in the ball, in the post: at most what is in the beam is lit, and through the walls of a mesh nothing is.
+/// Makes every mesh one with cut-outs, of which none is cut out.
+void make_cut_outs(Still& still) {
+    scene::RenderNeeds needs = needs_with_reliefs(1, still.table.projector);
+    for (scene::ShaderKey key : needs_with_reliefs(1, still.table.projector).draws) {
+        key.cut_out = key.pass == scene::ShaderKey::Pass::Surface && !key.blocks;
+        needs.draws.insert(key);
+    }
+    EXPECT_TRUE(still.world.renderer->prepare(
+        scene::with_torch(scene::with_cells(std::move(needs)), torch::parts_of(torch::white().stages, {}))));
+    for (scene::Part& part : still.world.parts) {
+        part.level.drawable.material.cut_out = true;
+    }
+}
+
+struct Walls {
+    Way way;
+    bool cut_outs = false;
+};
+
+/// In the plate, in the ball, in the post: at most what is in the beam is lit, and nothing through walls.
 TEST(Torch, InsideAnObjectLightsNothingBesideItsBeam) {
-    for (const Way way : ways) {
+    for (const auto& [way, cut_outs] :
+         {Walls{Way::Mesh}, Walls{Way::Mesh, true}, Walls{Way::DrawnRelief}, Walls{Way::RasterizedRelief}}) {
         Still still(way);
+        if (cut_outs) {
+            make_cut_outs(still);
+        }
         const image::Image8 without = still.lit_by({});
         const glm::dvec3 eye = still.table.table_from_prop.inverse().point(still.table.eye_m);
         std::size_t unchanged = 0;
@@ -259,11 +283,42 @@ TEST(Torch, InsideAnObjectLightsNothingBesideItsBeam) {
             }
         }
         EXPECT_GT(unchanged, 300'000U);
-        std::printf("%d: %zu lit, %zu of them through walls\n", static_cast<int>(way), changed,
-                    through_walls);
-        if (way != Way::DrawnRelief) { // of which there are no backs
-            EXPECT_LE(through_walls, 10U) << "of " << unchanged + changed;
+        std::printf("%d%s: %zu lit, %zu of them through walls\n", static_cast<int>(way),
+                    cut_outs ? " with cut-outs" : "", changed, through_walls);
+        EXPECT_LE(through_walls, 10U) << "of " << unchanged + changed;
+    }
+}
+
+/// There it is in the object's box, and not in the object.
+TEST(Torch, BetweenTheWallsOfACrateLightsWhatRaysSay) {
+    for (const auto& [way, cut_outs] :
+         {Walls{Way::Mesh}, Walls{Way::Mesh, true}, Walls{Way::DrawnRelief}, Walls{Way::RasterizedRelief}}) {
+        Still still(way, 5, box_in_crate());
+        if (cut_outs) {
+            make_cut_outs(still);
         }
+        const scene::PlacedLevel& crate = still.world.parts.front().level;
+        const geometry::Box placed = crate.placed_box();
+        std::mt19937 random(48);
+        Counts counts;
+        for (int pose = 0; pose < 8; ++pose) {
+            still.table.shuffle(random);
+            const glm::dvec3 place = placed.low + glm::dvec3(0.2, 0.5, 0.7) * (placed.high - placed.low);
+            const glm::dvec3 from = still.table.table_from_prop.point(
+                glm::dvec3(crate.prop_from_placed * glm::dvec4(place, 1.0)));
+            const glm::dvec3 towards = still.table.table_from_prop.direction({1.0, 0.1 * pose - 0.4, -0.8});
+            const std::array torches{torch_of(looking(from, from + towards), wide_beam())};
+            Compared(still.world, still.table, torches,
+                     cut_outs           ? of_cut_outs
+                     : way == Way::Mesh ? of_mesh
+                                        : of_relief)
+                .count(still.lit_by({}), still.lit_by(torches), counts);
+        }
+        std::printf("crate %d%s: %zu lit, %zu dark, excused %zu, %zu; %zu wrong\n", static_cast<int>(way),
+                    cut_outs ? " with cut-outs" : "", counts.lit, counts.dark, counts.outline, counts.edge,
+                    counts.wrong);
+        EXPECT_GT(counts.lit, 2000U);
+        EXPECT_LE(counts.wrong, (counts.lit + counts.dark) / (way == Way::Mesh ? 20000 : 2000));
     }
 }
 

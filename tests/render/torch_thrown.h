@@ -13,6 +13,7 @@
 #include <functional>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace frustumscreen::synthetic {
 
@@ -27,6 +28,7 @@ struct At {
     glm::dvec2 share{0.0}; ///< (0, 0) top left, (1, 1) bottom right
     double width_mm = 0.0; ///< of the whole content at that depth
     double pixel_mm = 0.0; ///< the projector's pixel, across the beam
+    glm::dvec2 uv{0.0};    ///< of the surface's texture
 };
 
 /// Smooth, and different in each corner.
@@ -35,11 +37,17 @@ inline glm::dvec3 painted(const glm::dvec2& share) {
             0.5 + 0.4 * std::cos(2.0 * std::numbers::pi * share.x) *
                       std::cos(2.0 * std::numbers::pi * share.y)};
 }
-inline image::Image8 picture_of_paint(int width, int height) {
+/// As above, and even across the borders, where a smaller copy of a texture has the mean of its last texels.
+inline glm::dvec3 painted_layer(const glm::dvec2& uv) {
+    const glm::dvec2 wave(std::cos(std::numbers::pi * uv.x), std::cos(std::numbers::pi * uv.y));
+    return {0.5 - 0.4 * wave.x, 0.5 - 0.4 * wave.y, 0.5 + 0.3 * wave.x * wave.y};
+}
+inline image::Image8 picture_of_paint(int width, int height,
+                                      glm::dvec3 (*paint)(const glm::dvec2&) = painted) {
     image::Image8 picture(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const glm::dvec3 light = painted({(x + 0.5) / width, (y + 0.5) / height});
+            const glm::dvec3 light = paint({(x + 0.5) / width, (y + 0.5) / height});
             picture.at(x, y) =
                 glm::u8vec4(std::lround(code_of_light(light.x)), std::lround(code_of_light(light.y)),
                             std::lround(code_of_light(light.z)), 255);
@@ -51,9 +59,13 @@ inline image::Image8 picture_of_paint(int width, int height) {
 class Evaluated {
 public:
     /// `seen`: the light of the surface that the torch sees at a share of its picture.
+    /// `layer`: the light of the layer at a place of its texture.
     Evaluated(const torch::Stage& stage, double height_per_width, double seconds,
-              std::function<glm::dvec3(const glm::dvec2&)> seen)
-        : stage_(stage), height_(height_per_width), seconds_(seconds), seen_(std::move(seen)) {}
+              std::function<glm::dvec3(const glm::dvec2&)> seen,
+              std::function<glm::dvec3(const glm::dvec2&)> layer)
+        : stage_(stage), height_(height_per_width), seconds_(seconds), seen_(std::move(seen)),
+          layer_(std::move(layer)) {}
+    [[nodiscard]] torch::Mix mix() const { return stage_.mix; }
 
     [[nodiscard]] Thrown operator()(const At& at) const {
         const glm::dvec2 own = own_place(at.share);
@@ -85,8 +97,10 @@ public:
             thrown.colour *= seen_(middle + (at.share - middle) / stage_.magnification);
             break;
         }
-        case torch::Source::Plain:
         case torch::Source::Layer:
+            thrown.colour *= layer_(at.uv);
+            break;
+        case torch::Source::Plain:
             break;
         }
         const double pulse = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * stage_.pulse_hz * seconds_));
@@ -114,12 +128,49 @@ private:
                               -std::sin(angle) * from.x + std::cos(angle) * from.y);
         return back / glm::dvec2(1.0, height_) + 0.5 - stage_.scroll_per_s * seconds_;
     }
-    /// In the content; of a stage that does not turn and scroll at once.
-    [[nodiscard]] glm::dvec2 middle_of_stage() const { return stage_.scroll_per_s * seconds_ + 0.5; }
+    /// In the content: a stage scrolls along its own axes, which turn.
+    [[nodiscard]] glm::dvec2 middle_of_stage() const {
+        const double angle = stage_.turn_rad_per_s * seconds_;
+        const glm::dvec2 by = stage_.scroll_per_s * seconds_ * glm::dvec2(1.0, height_);
+        const glm::dvec2 turned(std::cos(angle) * by.x - std::sin(angle) * by.y,
+                                std::sin(angle) * by.x + std::cos(angle) * by.y);
+        return 0.5 + turned / glm::dvec2(1.0, height_);
+    }
 
     torch::Stage stage_;
     double height_, seconds_;
-    std::function<glm::dvec3(const glm::dvec2&)> seen_;
+    std::function<glm::dvec3(const glm::dvec2&)> seen_, layer_;
+};
+
+/// Stages laid over each other: their light, as it arrives, and the share of the surface that they cover.
+class EvaluatedStages {
+public:
+    explicit EvaluatedStages(std::vector<Evaluated> stages) : stages_(std::move(stages)) {}
+    [[nodiscard]] Thrown operator()(const At& at) const {
+        glm::dvec3 light(0.0);
+        double cover = 0.0;
+        for (const Evaluated& stage : stages_) {
+            const Thrown next = stage(at);
+            const bool first = &stage == &stages_.front();
+            switch (first ? torch::Mix::Over : stage.mix()) {
+            case torch::Mix::Over:
+                light = next.alpha * next.colour + (1.0 - next.alpha) * light;
+                cover = next.alpha + (1.0 - next.alpha) * cover;
+                break;
+            case torch::Mix::Multiply: // a filter in the light's way
+                light *= 1.0 - next.alpha + next.alpha * next.colour;
+                break;
+            case torch::Mix::Add:
+                light += next.alpha * next.colour;
+                cover = std::fmin(1.0, cover + next.alpha);
+                break;
+            }
+        }
+        return {cover, cover > 0.0 ? light / cover : glm::dvec3(0.0)};
+    }
+
+private:
+    std::vector<Evaluated> stages_;
 };
 
 } // namespace frustumscreen::synthetic

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
@@ -175,8 +178,8 @@ TEST(ShadowMap, IsDarkWhereTheFirstSurfaceIsABack) {
         for (const Mesh& mesh : meshes) {
             map.draw(view, mesh.positions, mesh.indices);
         }
-        map.find_farthest_of_four(slack);
-        return at(map, 32, 32);
+        map.find_farthest(slack);
+        return static_cast<double>(map.farthest()[32 * side_px + 32].of_four);
     };
     for (const double sign : {1.0, -1.0}) {
         EXPECT_NEAR(first(sign, {sheet(true, 0.8F)}), 1.25, 1e-6);
@@ -187,23 +190,34 @@ TEST(ShadowMap, IsDarkWhereTheFirstSurfaceIsABack) {
     }
 }
 
-/// Each pixel is no nearer than the farthest of the four, and no farther than that by more than a slack; as far as half of their
-/// range.
-TEST(ShadowMap, HasTheFarthestOfFour) {
+/// Each is no nearer than the farthest of the four, or of those that a place away from the farthest lies between, and no farther than
+/// that by more than a slack; as far as half of their range.
+TEST(ShadowMap, HasTheFarthestOfFourAndOfThree) {
     constexpr double slack = 0.001;
     Mesh mesh;
     mesh.add({-0.2F, -0.3F, 0.8F}, {0.3F, -0.1F, 1.1F}, {0.0F, 0.4F, 0.9F});
     const ShadowMap own = map_of(mesh);
-    ShadowMap farthest = own;
-    farthest.find_farthest_of_four(slack);
+    ShadowMap map = own;
+    map.find_farthest(slack);
+    int apart = 0;
     for (int y = 0; y + 1 < side_px; ++y) {
         for (int x = 0; x + 1 < side_px; ++x) {
-            const auto [low, high] =
-                std::minmax({at(own, x, y), at(own, x + 1, y), at(own, x, y + 1), at(own, x + 1, y + 1)});
-            const double expected = std::max(low * (1.0 - slack), low - 0.5 * (high - low));
-            EXPECT_NEAR(at(farthest, x, y), expected, 1e-6);
+            const std::array four{at(own, x, y), at(own, x + 1, y), at(own, x, y + 1), at(own, x + 1, y + 1)};
+            std::array sorted = four;
+            std::ranges::sort(sorted);
+            const auto lowered = [&](double low) {
+                return std::max(low * (1.0 - slack), low - 0.5 * (sorted.back() - low));
+            };
+            const ShadowMap::Farthest& farthest = map.farthest()[static_cast<std::size_t>(y * side_px + x)];
+            EXPECT_NEAR(farthest.of_four, lowered(sorted[0]), 1e-6);
+            EXPECT_NEAR(farthest.without_one, lowered(sorted[1]), 2e-6);
+            if (sorted[0] < sorted[1]) {
+                ++apart;
+                EXPECT_EQ(four.at(std::bit_cast<std::uint32_t>(farthest.without_one) & 3U), sorted[0]);
+            }
         }
     }
+    EXPECT_GT(apart, 100);
 }
 
 TEST(ShadowMap, LeavesOutWhatIsNotFinite) {
