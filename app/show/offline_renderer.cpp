@@ -227,7 +227,7 @@ std::unique_ptr<PatchJob> OfflineRenderer::patches_of(const Window& window, cons
                                        .table_from_projector = table_from_projector_,
                                        .eye_m = eye_m,
                                        .samples = window.parts.front().level.samples});
-    const auto make_world = [&]() -> Result<FrozenWorld> {
+    const auto make_world = [&](const LevelInWindow& /*shown*/) -> Result<FrozenWorld> {
         FrozenWorld world;
         for (std::size_t k = 0; k < kept_.size(); ++k) {
             const scene::PlacedLevel& level = window.parts[k].level;
@@ -236,11 +236,13 @@ std::unique_ptr<PatchJob> OfflineRenderer::patches_of(const Window& window, cons
         }
         return world;
     };
-    auto job = std::make_unique<PatchJob>(PatchJobSetUp{.make_world = make_world,
-                                                        .radius_m = view.radius_m,
-                                                        .view = view.cameras,
-                                                        .samples = view.samples,
-                                                        .number = windows_.size() + 1});
+    auto job = std::make_unique<PatchJob>();
+    job->begin({.make_world = std::make_shared<const WorldMaker>(make_world),
+                .shown = {},
+                .radius_m = view.radius_m,
+                .view = view.cameras,
+                .samples = view.samples,
+                .number = windows_.size() + 1});
     while (!job->is_done()) {
         job->step();
     }

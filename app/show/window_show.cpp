@@ -79,10 +79,11 @@ std::uint64_t WindowShow::planned_gpu_bytes() const {
 }
 
 void WindowShow::make_space(const residency::ArtifactCache& cache) {
-    frozen_.clear();
+    std::vector<const residency::KnownArtifact*> artifacts;
     std::size_t indices = 0, parts = 1;
     for (std::size_t artifact = 0; artifact < cache.size(); ++artifact) {
         const residency::KnownArtifact& known = cache.known(artifact);
+        artifacts.push_back(&known);
         indices = std::max(indices, max_indices_of(known.outline, known.plan));
         if (known.world) {
             std::size_t of_cells = 0;
@@ -93,6 +94,7 @@ void WindowShow::make_space(const residency::ArtifactCache& cache) {
             parts = std::max(parts, known.world->drawn.size());
         }
     }
+    frozen_.make_space(artifacts);
     for (scene::FramePlan& space : spaces_) {
         scene::make_window_space(space, windows_.count, indices, parts);
     }
@@ -250,6 +252,7 @@ void WindowShow::begin_patches(const exhibit::PresentedWindow& window, const res
         frozen_.forget(window.number);
     } else {
         frozen_.freeze({.number = window.number,
+                        .artifact = window.artifact,
                         .known = known,
                         .shown = cache.find(window.artifact)->shown_quality(),
                         .parts = held.moved,
