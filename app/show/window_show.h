@@ -86,7 +86,12 @@ private:
         scene::PinnedView view;
         bool is_aimed = false;
         WindowLight light;
+        std::optional<world::SiteView> part; ///< of a site, that it shows
+        /// Its levels may leave the memory.
+        void let_go();
     };
+    /// Of windows that have gone.
+    void let_go(const exhibit::PresentedWindows& presented);
     [[nodiscard]] Held& held_of(const exhibit::PresentedWindow& window,
                                 const exhibit::PresentedWindows& presented,
                                 const residency::ArtifactCache& cache, const LightInProp& light);
@@ -106,6 +111,11 @@ private:
                                      std::span<const glm::dvec3> eyes_m,
                                      const residency::ArtifactCache& cache, scene::PlacedWindow& placed);
     void set_samples(Held& held) const;
+    /// Sets the parts of a window that shows a part of a site to the best levels that are there, of all regions: its eye sees others than
+    /// the prop's faces.
+    static void refresh(const residency::RunCells& cells, Held& held);
+    /// Tells each site which parts of it windows show.
+    void expect_parts(const exhibit::Presentation& presentation, const residency::ArtifactCache& cache) const;
     /// Sets the parts and the light of a live window to what the prop shows now.
     void go_on(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                const LightInProp& light, Held& held) const;

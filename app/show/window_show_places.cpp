@@ -39,6 +39,7 @@ void WindowShow::freeze(const exhibit::PresentedWindow& window, const residency:
                         Held& held) const {
     held.parts.clear();
     held.is_frozen = true;
+    held.part.reset();
     const residency::RunCells* const cells = cache.find_cells(window.artifact);
     const residency::RunLevels& levels = *cache.find(window.artifact);
     if (window.state && cells != nullptr) {
@@ -50,6 +51,9 @@ void WindowShow::freeze(const exhibit::PresentedWindow& window, const residency:
         if (shown) {
             held.parts.push_back({*shown, std::nullopt});
         }
+    } else if (cells != nullptr && cells->shown_part()) {
+        held.part = cells->shown_part();
+        cells->show_part(*held.part, held.parts);
     } else if (window.live && cells != nullptr) {
         cells->show_moving(held.parts);
     } else if (cells != nullptr) {
@@ -100,6 +104,36 @@ void WindowShow::set_samples(Held& held) const {
     }
 }
 
+void WindowShow::refresh(const residency::RunCells& cells, Held& held) {
+    held.parts.clear();
+    cells.show_part(*held.part, held.parts);
+    scene::move_behind(held.view.window_from_prop, held.parts, held.moved);
+}
+
+void WindowShow::expect_parts(const exhibit::Presentation& presentation,
+                              const residency::ArtifactCache& cache) const {
+    const auto windows = presentation.windows.windows();
+    const auto expect = [&](std::size_t artifact) {
+        std::array<world::SiteView, settings::max_windows> views{};
+        std::size_t count = 0;
+        for (const Held& held : held_) {
+            const bool is_of_it = std::any_of(windows.begin(), windows.end(), [&](const auto& window) {
+                return window.number == held.number && window.artifact == artifact;
+            });
+            if (is_of_it && held.part && !held.lost && count < views.size()) {
+                views.at(count++) = *held.part;
+            }
+        }
+        if (residency::RunCells* const cells = cache.find_cells(artifact)) {
+            cells->expect_in_windows(std::span(views).first(count));
+        }
+    };
+    expect(presentation.artifact); // its last window may have gone
+    for (const exhibit::PresentedWindow& window : windows) {
+        expect(window.artifact);
+    }
+}
+
 void WindowShow::go_on(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                        const LightInProp& light, Held& held) const {
     held.parts.clear();
@@ -110,6 +144,22 @@ void WindowShow::go_on(const exhibit::PresentedWindow& window, const residency::
     }
     scene::move_behind(held.view.window_from_prop, held.parts, held.moved);
     held.light.keep(light);
+}
+
+void WindowShow::Held::let_go() {
+    parts.clear();
+    moved.clear();
+    part.reset();
+}
+
+void WindowShow::let_go(const exhibit::PresentedWindows& presented) {
+    for (Held& held : held_) {
+        const auto all = presented.windows();
+        if (std::none_of(all.begin(), all.end(),
+                         [&](const auto& window) { return window.number == held.number; })) {
+            held.let_go();
+        }
+    }
 }
 
 WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
@@ -185,6 +235,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
     const LightInProp light{.torches = torches,
                             .table_from_prop = presentation.table_from_prop,
                             .house_light = presentation.torches.house_light};
+    let_go(presentation.windows);
     std::size_t count = 0;
     for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
         Held& held = held_of(window, presentation.windows, cache, light);
@@ -203,7 +254,9 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
         if (is_new || is_darker || held.follows != window.follows) {
             begin_patches(window, cache, held);
         }
-        if (window.live && held.is_aimed && is_on_show) {
+        if (held.part && held.is_aimed && cells != nullptr) {
+            refresh(*cells, held);
+        } else if (window.live && held.is_aimed && is_on_show) {
             go_on(window, cache, light, held);
         }
         double share = 1.0;
@@ -229,6 +282,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
     if (count < windows_.count) { // the plans have room for so many
         count += place_preview(presentation, eyes_m, cache, placed_.at(count)) ? 1 : 0;
     }
+    expect_parts(presentation, cache);
     frozen_.step(presentation.windows.windows());
     shows_ = count > 0;
     return std::span(placed_).first(count);
@@ -240,6 +294,7 @@ bool WindowShow::place_preview(const exhibit::Presentation& presentation, std::s
     const residency::RunCells* const cells = cache.find_cells(presentation.artifact);
     if (!place || place->title.behaviour < exhibit::site_preview_title || cells == nullptr) {
         preview_.number = 0;
+        preview_.let_go();
         return false;
     }
     const auto number = static_cast<std::uint32_t>(place->title.behaviour);
@@ -252,7 +307,7 @@ bool WindowShow::place_preview(const exhibit::Presentation& presentation, std::s
             preview_table_from_prop_ = presentation.table_from_prop;
         }
         preview_.parts.clear();
-        cells->show_goal(preview_.parts);
+        cells->show_part(cells->goal()->view, preview_.parts);
         aim({.number = 0,
              .artifact = presentation.artifact,
              .comings = 0,
