@@ -41,14 +41,6 @@ PixelRectangle in_display(PixelRectangle part, const scene::FramePlan& plan) {
     return part;
 }
 
-PixelRectangle lit_by_torches(const scene::FramePlan& plan) {
-    PixelRectangle lit;
-    for (const scene::TorchDraw& draw : plan.torch_draws) {
-        lit = united(lit, draw.bounds);
-    }
-    return lit;
-}
-
 } // namespace
 
 Result<Renderer> Renderer::create(int width, int height, const scene::RenderNeeds& needs) {
@@ -182,6 +174,11 @@ DrawResult Renderer::draw(std::span<const scene::FramePlan> plans, const RenderT
     return result;
 }
 
+int Renderer::see_torches(const scene::FramePlan& plan) {
+    raster_pass_.find_lit_parts(plan);
+    return torches_->see(plan, store_, shaders_, raster_pass_);
+}
+
 int Renderer::light_layers(const Lit& lit) {
     return faces_.light_layers(lit) + raster_pass_.light_layers_in_depth(lit);
 }
@@ -205,8 +202,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     if (repaint.prop) {
         raster_pass_.paint(plan, store_);
         if (torches_) {
-            raster_pass_.find_lit_parts(plan);
-            result.draw_calls += torches_->see(plan, store_, shaders_, raster_pass_);
+            result.draw_calls += see_torches(plan);
             torches = torches_->pictures();
         }
     }
@@ -214,7 +210,7 @@ void Renderer::paint(const scene::FramePlan& plan, const RenderTarget& target, c
     if (smooth) {
         sample_grid_->begin(plan.lit, raster, shaders_);
         if (!torches.empty() && surfaces) { // they ask each pixel of their bounds for its depth
-            sample_grid_->clear_depth(lit_by_torches(plan), raster);
+            sample_grid_->clear_depth(TorchPass::lit_by(plan), raster);
         }
         result.draw_calls += table_.draw(plan, plan.lit.bounds(), store_, shaders_, raster);
         result.draw_calls += faces_.draw(plan, store_, shaders_, raster);

@@ -120,9 +120,12 @@ private:
     /// Draws a window of the plan into the bound target; returns the number of draw calls.
     int draw_window(const scene::FramePlan& window, const scene::FramePlan& plan, const RenderTarget& target,
                     const Raster& direct);
-    /// The part of a window that the GPU draws, into the bound target, whose stencil then marks the window.
+    /// The part of a window that the GPU draws, into the bound target, whose stencil then marks the window. `torches`: of the window.
     int draw_surfaces(const scene::FramePlan& window, const scene::FramePlan& plan,
-                      const RenderTarget& target, const Raster& direct);
+                      std::span<const TorchPicture> torches, const RenderTarget& target,
+                      const Raster& direct);
+    /// Finds what each of the plan's torches sees, once what it rasterizes is painted. Returns the number of draw calls.
+    int see_torches(const scene::FramePlan& plan);
     /// The plan's torches that show layers, on what has depth. Returns the number of draw calls.
     int light_layers(const Lit& lit);
     [[nodiscard]] Repaint to_redraw(const scene::FramePlan& plan, std::size_t eye, const Picture& picture,

@@ -58,7 +58,8 @@ void Renderer::include_touched(std::span<const scene::FramePlan> plans, std::spa
 }
 
 int Renderer::draw_surfaces(const scene::FramePlan& window, const scene::FramePlan& plan,
-                            const RenderTarget& target, const Raster& direct) {
+                            std::span<const TorchPicture> torches, const RenderTarget& target,
+                            const Raster& direct) {
     if (!FacePass::draws(window)) {
         faces_.mark(window, shaders_, direct);
         return 0;
@@ -68,13 +69,24 @@ int Renderer::draw_surfaces(const scene::FramePlan& window, const scene::FramePl
                                                               window.prop_bounds, samples)
                                        : Raster{};
     if (raster.fragments == glm::ivec2(1)) {
-        return faces_.draw(window, store_, shaders_, direct) +
-               raster_pass_.show_in_depth(window, shaders_, direct);
+        int calls = faces_.draw(window, store_, shaders_, direct) +
+                    raster_pass_.show_in_depth(window, shaders_, direct);
+        if (!torches.empty()) {
+            const Lit lit{window, store_, shaders_, direct, torches};
+            calls += light_layers(lit) + torches_->light_pixels(lit);
+        }
+        return calls;
     }
     sample_grid_->begin(window.lit, raster, shaders_);
+    if (!torches.empty()) { // they ask each pixel of their bounds for its depth
+        sample_grid_->clear_depth(TorchPass::lit_by(window), raster);
+    }
     int calls = table_.draw(plan, window.lit.bounds(), store_, shaders_, raster);
     calls += faces_.draw(window, store_, shaders_, raster);
     calls += raster_pass_.show_in_depth(window, shaders_, raster);
+    if (!torches.empty()) {
+        calls += light_layers({window, store_, shaders_, raster, torches});
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     set_viewport({plan.projector.width, plan.projector.height}, direct);
     faces_.mark(window, shaders_, direct);
@@ -82,17 +94,33 @@ int Renderer::draw_surfaces(const scene::FramePlan& window, const scene::FramePl
     glEnable(GL_FRAMEBUFFER_SRGB_EXT);
     sample_grid_->average(window.lit, raster, -direct.corner, shaders_);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+    if (!torches.empty()) {
+        calls += torches_->light_samples({window, store_, shaders_, direct, torches}, raster,
+                                         sample_grid_->depths());
+    }
     return calls;
 }
 
 int Renderer::draw_window(const scene::FramePlan& window, const scene::FramePlan& plan,
                           const RenderTarget& target, const Raster& direct) {
     raster_pass_.paint(window, store_, RasterPass::Depth::WhereItMeets, RasterPass::Rectangles::AreDrawn);
+    int calls = 0;
+    std::span<const TorchPicture> torches;
+    if (torches_ && !window.torches.empty()) {
+        calls = see_torches(window);
+        torches = torches_->pictures();
+        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+        set_viewport({plan.projector.width, plan.projector.height}, direct);
+    }
     clear_depth_and_stencil(scene::bounds_in_prop(window), direct);
-    const int calls = draw_surfaces(window, plan, target, direct);
+    calls += draw_surfaces(window, plan, torches, target, direct);
     set_channels(plan.picture.channels);
     const InWindow in_window;
-    return calls + raster_pass_.show(window, shaders_);
+    calls += raster_pass_.show(window, shaders_);
+    if (!torches.empty()) {
+        calls += raster_pass_.light({window, store_, shaders_, direct, torches});
+    }
+    return calls;
 }
 
 void Renderer::paint_windows(const scene::FramePlan& plan, const RenderTarget& target,

@@ -59,6 +59,14 @@ relief::TileMask tiles_in(const torch::Beam& beam) {
 
 } // namespace
 
+PixelRectangle TorchPass::lit_by(const scene::FramePlan& plan) {
+    PixelRectangle lit;
+    for (const scene::TorchDraw& draw : plan.torch_draws) {
+        lit = united(lit, draw.bounds);
+    }
+    return lit;
+}
+
 Result<void> TorchPass::prepare(const scene::RenderNeeds& needs) {
     if (needs.torches.empty()) {
         return {};

@@ -22,6 +22,9 @@ namespace frustumscreen::render {
 
 class TorchPass {
 public:
+    /// Around all pixels that the plan's torches light.
+    [[nodiscard]] static PixelRectangle lit_by(const scene::FramePlan& plan);
+
     /// Makes the pictures if plans may have torches.
     [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs);
     /// Finds or draws what each of the plan's torches sees; of the plan's own picture `painted` has what is rasterized. Returns the

@@ -21,7 +21,7 @@ inline constexpr std::string_view torch_light = R"(
 #define MAX_STAGES 3
 uniform vec4 beam;               // x / z and y / z times xy: -1..1; reach; 1: round
 uniform vec4 fall;               // of the intensity: this over the way's square at most; factors of t, t^2, t^3, which it falls by
-uniform vec4 way;                // up to which it is full; 1 / (dark - full); brightness
+uniform vec4 way;                // up to which it is full; 1 / (dark - full); brightness; the ruler's mm a metre
 uniform highp vec3 inverse_z;    // of a texel of `shadow`: factor, offset; share of z by which nothing shades itself
 uniform int content_kind;        // number of stages
 uniform ivec2 stage_kind[MAX_STAGES];  // source, mix
@@ -120,7 +120,7 @@ vec4 stage(int k, vec2 place, float pixel, vec3 p, vec4 layer) {
 #endif
 #if CONTENT_PARTS & 4
     if (source >= 4 && source <= 6) {
-        colour.a = effect(source, from_middle, stage_size[k], pixel, 2000.0 * p.z / beam.x);
+        colour.a = effect(source, from_middle, stage_size[k], pixel, 2.0 * way.w * p.z / beam.x);
     }
 #endif
 #if CONTENT_PARTS & 8

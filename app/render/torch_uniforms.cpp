@@ -34,7 +34,8 @@ void set_beam(const Shader& shader, const scene::TorchLight& light, const glm::v
                 light.reach_m, beam.shape == torch::Shape::Round ? 1.0F : 0.0F);
     const glm::vec4 fall = fall_of(beam);
     glUniform4fv(shader.location(Uniform::Fall), 1, glm::value_ptr(fall));
-    const glm::vec4 way(beam.full_m, 1.0 / (beam.dark_m - beam.full_m), light.torch.brightness, 0.0);
+    const glm::vec4 way(beam.full_m, 1.0 / (beam.dark_m - beam.full_m), light.torch.brightness,
+                        1e3 / light.torch.scale);
     glUniform4fv(shader.location(Uniform::Way), 1, glm::value_ptr(way));
     glUniform3f(shader.location(Uniform::InverseZ), inverse_z.x, inverse_z.y,
                 static_cast<float>(slack_of(light)));

@@ -120,6 +120,7 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
     }
     wanted_.reserve(max_wanted_pages);
     by_pixels_.reserve(cells_.size());
+    by_distance_.reserve(cells_.size());
     targets_.resize(cells_.size());
     can_rasterize_all_ = true;
     for (std::size_t k = 0; k < cells_.size(); ++k) {

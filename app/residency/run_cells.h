@@ -16,7 +16,7 @@
 ///          those that no face shows are left out. An error of a cell grows with the zoom, so finer levels come by the rule of cells that
 ///          are drawn at rest. The picture fades from the whole to the cells; the caller leaves the zoom at 1 for as long.
 /// Pages    of a site's region only the coarsest level comes with the artifact. The finer ones are pages: `wanted_pages` names those that
-///          the place needs, the caller gives them when they are in the store, and a cell fades to them. Until then, and where the
+///          the place needs, then those of the places in windows; the caller gives them when they are in the store, and a cell fades to them. Until then, and where the
 ///          memory is too small, the next coarser level that is there is drawn.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
@@ -37,6 +37,7 @@
 #include "firmware_host/base/time.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -63,7 +64,7 @@ public:
     void add_states(const pack::PackWorld& world, std::span<const pack::PackState> states);
     static constexpr std::size_t max_wanted_pages = 64;
     /// Pages for the next frames, by PreparedCells::levels, the most urgent first, also those that are there: of the regions that the
-    /// latest picture shows, largest first; then of the place that is travelled to and of its neighbours.
+    /// latest picture shows, largest first; then of the place that is travelled to and of its neighbours; then of windows.
     [[nodiscard]] std::span<const std::size_t> wanted_pages() const { return wanted_; }
     /// A page is in the store.
     void give_page(std::size_t place, const PreparedLevel& level, const scene::Drawable& drawable,
@@ -87,6 +88,10 @@ public:
     [[nodiscard]] world::Player& player() { return player_; }
     /// The part of a site that the next frames show; none, as at the beginning: the whole. Not for other artifacts.
     void show_site(const std::optional<world::SiteView>& view) { site_ = view; }
+    /// The part that is shown; none: the whole.
+    [[nodiscard]] std::optional<world::SiteView> shown_part() const {
+        return is_beyond() ? site_ : std::nullopt;
+    }
     /// The region that is gone to, or may be next, and how large it will be.
     struct Goal {
         std::size_t region = 0; ///< of the site's
@@ -94,8 +99,10 @@ public:
     };
     void expect_site(const std::optional<Goal>& goal) { goal_ = goal; }
     [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
-    /// Adds the site as the prop will show it there, each region by its coarsest level that is good enough and there.
-    void show_goal(std::vector<scene::Part>& parts) const;
+    /// The parts of the site that windows show; their pages come last. At most settings::max_windows.
+    void expect_in_windows(std::span<const world::SiteView> views);
+    /// Adds all of the site as the prop shows it in this view, each region by its coarsest level that is good enough and there.
+    void show_part(const world::SiteView& view, std::vector<scene::Part>& parts) const;
     /// Marks a region of the miniature for the next frames; none: no mark.
     void mark(const std::optional<world::RegionBox>& region);
     /// The parts that RunLevels::draw draws beside the whole.
@@ -154,6 +161,7 @@ private:
         double enough_to = 0.0; ///< of a site: the largest zoom at which it is
         bool there = true;      ///< false: a page that is not in the store
         bool leaves = false;    ///< a page that is not to be drawn any more
+        int kept_out = 0;       ///< steps for which no window takes it again
     };
     struct Cell {
         std::size_t number = 0;       ///< index into the player's cells
@@ -178,11 +186,13 @@ private:
     }
     /// The option drawn of a cell in place of the wanted one: the same if it is there.
     [[nodiscard]] std::size_t nearest_there(const Cell& cell) const;
-    /// The quickest option of a cell that is good enough there.
-    [[nodiscard]] std::size_t option_at_goal(std::size_t cell) const;
+    /// The quickest option of a cell that is good enough at a zoom.
+    [[nodiscard]] std::size_t option_at(std::size_t cell, double zoom) const;
     /// Sets `wanted_`.
     void want_pages();
     void want_page(std::size_t place);
+    /// Those of the regions in the prop and about its size around it, nearest first.
+    void want_pages_around(const world::SiteView& view);
     /// A cell's pose in this frame, in the site's view.
     [[nodiscard]] world::CellPose pose_of(const Cell& cell) const;
     /// True if the zoom is not 1: the world reaches out of the prop.
@@ -223,7 +233,10 @@ private:
     std::vector<std::size_t> given_; ///< the options that come with the artifact
     std::vector<world::RegionBox> regions_;
     std::optional<Goal> goal_;
+    std::array<world::SiteView, settings::max_windows> in_windows_{};
+    std::size_t in_windows_count_ = 0;
     std::vector<std::size_t> wanted_, by_pixels_, targets_;
+    std::vector<std::pair<double, std::size_t>> by_distance_;
     std::vector<Cell> cells_;
     scene::CellChoice choice_, rasterized_choice_;
     std::vector<scene::CellOption> offered_, rasterized_; ///< of each option, in this frame

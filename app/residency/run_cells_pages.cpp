@@ -42,25 +42,54 @@ void RunCells::want_page(std::size_t place) {
     }
 }
 
-std::size_t RunCells::option_at_goal(std::size_t cell) const {
+std::size_t RunCells::option_at(std::size_t cell, double zoom) const {
     std::size_t option = end_of(cell) - 1;
-    while (option > cells_[cell].first && options_[option].enough_to < goal_->view.zoom) {
+    while (option > cells_[cell].first && options_[option].enough_to < zoom) {
         --option;
     }
     return option;
 }
 
-void RunCells::show_goal(std::vector<scene::Part>& parts) const {
-    for (std::size_t k = 0; goal_ && k < cells_.size() && !poses_.empty(); ++k) {
-        std::size_t option = option_at_goal(k);
+void RunCells::expect_in_windows(std::span<const world::SiteView> views) {
+    in_windows_count_ = std::min(views.size(), in_windows_.size());
+    std::copy_n(views.begin(), in_windows_count_, in_windows_.begin());
+}
+
+void RunCells::show_part(const world::SiteView& view, std::vector<scene::Part>& parts) const {
+    for (std::size_t k = 0; k < cells_.size() && !poses_.empty(); ++k) {
+        std::size_t option = option_at(k, view.zoom);
         while (!options_[option].there || options_[option].leaves) {
             ++option;
         }
         world::CellPose pose = poses_[cells_[k].number];
-        pose.box_from_geometry = goal_->view.matrix() * pose.box_from_geometry;
+        pose.box_from_geometry = view.matrix() * pose.box_from_geometry;
         scene::Part& part = parts.emplace_back(scene::Part{options_[option].placed, std::nullopt});
         scene::set_pose(part.level, pose, metres_per_box_);
         part.level.beyond = true;
+    }
+}
+
+void RunCells::want_pages_around(const world::SiteView& view) {
+    constexpr double around = 1.5; // the prop's ground is 1 across
+    const auto away = [&](std::size_t cell) {
+        return glm::length(glm::dvec2(view.point(world::ground_of(regions_[cell]))));
+    };
+    by_distance_.clear();
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        const glm::dvec2 low(view.point(regions_[k].low));
+        const glm::dvec2 high(view.point(regions_[k].high));
+        if (low.x < around && low.y < around && high.x > -around && high.y > -around) {
+            by_distance_.push_back({away(k), k});
+        }
+    }
+    std::sort(by_distance_.begin(), by_distance_.end());
+    for (const auto& [distance, k] : by_distance_) {
+        // A page that is to leave for what the prop shows is not wanted back at once.
+        Option& option = options_[option_at(k, view.zoom)];
+        option.kept_out = std::max(option.kept_out - 1, 0);
+        const bool leaves = option.leaves && option.kept_out > 0;
+        want_page(option_at(k, view.zoom));
+        option.leaves = option.leaves || leaves;
     }
 }
 
@@ -83,15 +112,16 @@ void RunCells::want_pages() {
             want_page(cells_[k].first + cells_[k].wanted);
         }
     }
-    if (!goal_ || goal_->region >= cells_.size()) {
-        return;
-    }
-    const auto want_at_goal = [this](std::size_t k) { want_page(option_at_goal(k)); };
-    want_at_goal(goal_->region);
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-        if (k != goal_->region && touch(regions_[k], regions_[goal_->region])) {
-            want_at_goal(k);
+    if (goal_ && goal_->region < cells_.size()) {
+        want_page(option_at(goal_->region, goal_->view.zoom));
+        for (std::size_t k = 0; k < cells_.size(); ++k) {
+            if (k != goal_->region && touch(regions_[k], regions_[goal_->region])) {
+                want_page(option_at(k, goal_->view.zoom));
+            }
         }
+    }
+    for (std::size_t k = 0; k < in_windows_count_; ++k) {
+        want_pages_around(in_windows_[k]);
     }
 }
 
@@ -107,8 +137,10 @@ void RunCells::give_page(std::size_t place, const PreparedLevel& level, const sc
 }
 
 bool RunCells::let_go(std::size_t place) {
+    constexpr int keep_out_steps = 120;
     Option& option = options_.at(place);
     option.leaves = true;
+    option.kept_out = keep_out_steps;
     for (const Cell& cell : cells_) {
         if (cell.first + cell.shown == place || (cell.coming && cell.first + *cell.coming == place)) {
             return false;

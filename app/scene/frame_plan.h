@@ -109,6 +109,8 @@ struct PlacedWindow {
     double brightness = 1.0; ///< as PlanView::brightness
     /// Points that eyes see of the parts, drawn in their place where they are ready (window_patches.h); null: none are.
     const WindowPatches* patches = nullptr;
+    /// They light the parts, table frame; then no points are drawn. Only in a plan whose windows have room for them.
+    std::span<const PlacedTorch> torches = {};
 };
 
 /// The part of the display's picture that holds one eye's picture.
@@ -140,7 +142,7 @@ struct PlanView {
     std::span<const glm::dvec3> dimming_eyes_m = {};
     /// They light what is in the prop, in this order; at most torch::max_torches. Only in a plan that has room for them.
     std::span<const PlacedTorch> torches = {};
-    /// Only in a plan that has room for them. The prop's light compensation and eyes are theirs too; torches are not.
+    /// Only in a plan that has room for them. The prop's light compensation and eyes are theirs too; torches are their own.
     std::span<const PlacedWindow> windows = {};
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,

@@ -222,4 +222,20 @@ void move_behind(const glm::dmat4& window_from_prop, std::span<const Part> parts
     }
 }
 
+PlacedTorch moved_behind(const PinnedView& view, const geometry::RigidTransform& table_from_window,
+                         const PlacedTorch& torch) {
+    const geometry::RigidTransform& prop_from_torch = torch.table_from_torch;
+    const glm::dquat turn = glm::quat_cast(glm::dmat3(view.window_from_prop) / view.scale);
+    PlacedTorch moved = torch;
+    moved.table_from_torch =
+        table_from_window *
+        geometry::RigidTransform{
+            turn * prop_from_torch.rotation,
+            glm::dvec3(view.window_from_prop * glm::dvec4(prop_from_torch.translation, 1.0))};
+    moved.beam.full_m *= view.scale;
+    moved.beam.dark_m *= view.scale;
+    moved.scale *= view.scale;
+    return moved;
+}
+
 } // namespace frustumscreen::scene

@@ -65,5 +65,10 @@ struct PinnedView {
 
 /// The parts of a prop's world as they stand behind a window; each may show on all of it.
 void move_behind(const glm::dmat4& window_from_prop, std::span<const Part> parts, std::vector<Part>& moved);
+/// A torch on the prop's world as it lights that world behind a window that now stands at `table_from_window`. In `torch` the pose is
+/// that in the prop's frame, in the result that on the table.
+[[nodiscard]] PlacedTorch moved_behind(const PinnedView& view,
+                                       const geometry::RigidTransform& table_from_window,
+                                       const PlacedTorch& torch);
 
 } // namespace frustumscreen::scene

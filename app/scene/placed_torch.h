@@ -27,6 +27,8 @@ struct PlacedTorch {
     std::uint32_t picture_version = 0;   ///< another number for another picture: a film's frame
     float brightness = 1.0F;             ///< factor of its light: fades. 0: it is off
     bool casts_shadows = true;           ///< false only to measure their cost
+    double scale =
+        1.0; ///< of the world that it lights: a window may show it smaller, with the ruler's marks on it
 };
 
 /// The parts that drawing its content takes (torch::ContentPart).

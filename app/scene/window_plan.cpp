@@ -4,6 +4,7 @@
 #include "app/geometry/planar_hull.h"
 #include "app/scene/face_view.h"
 #include "app/scene/prop_outline.h"
+#include "app/scene/torch_plan.h"
 #include "app/scene/window_patches.h"
 
 #include <algorithm>
@@ -73,7 +74,8 @@ PlanView through(const PlacedWindow& window, const PlanView& view) {
                   .light = view.light,
                   .brightness = window.brightness,
                   .picture = view.picture,
-                  .dimming_eyes_m = view.dimming_eyes_m};
+                  .dimming_eyes_m = view.dimming_eyes_m,
+                  .torches = window.torches};
     if (seen.light) {
         seen.light->hull.reset(); // the hull is that of the prop's world
     }
@@ -83,7 +85,8 @@ PlanView through(const PlacedWindow& window, const PlanView& view) {
 /// Null: the window's parts are drawn. A lens that bends straight lines would bend the points' places too, so their parts are drawn
 /// there.
 const ldi::PointPatch* points_of(const PlacedWindow& window, const PlanView& view) {
-    if (window.patches == nullptr || view.eyes_m.empty() || if_it_bends(view.projector)) {
+    if (window.patches == nullptr || !window.torches.empty() || view.eyes_m.empty() ||
+        if_it_bends(view.projector)) {
         return nullptr;
     }
     return points_for(*window.patches, window.table_from_window.inverse().point(view.eyes_m.front()));
@@ -110,7 +113,8 @@ void plan_window(const PlacedWindow& window, const PlanView& view, const Cover& 
 
 } // namespace
 
-void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts) {
+void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts,
+                       bool torches) {
     geometry::PropShape surface;
     geometry::PropFace& face = surface.faces.emplace_back();
     for (std::size_t k = 0; k < geometry::max_face_corners; ++k) {
@@ -121,6 +125,9 @@ void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices
     for (std::size_t k = 0; k < windows; ++k) {
         FramePlan& window = plan.windows.emplace_back(make_plan(surface, indices, parts));
         window.cover_clip.reserve(corners_of_pixel * geometry::max_corners);
+        if (torches) {
+            make_torch_space(window, surface.faces.size(), indices, parts);
+        }
     }
     plan.draws.reserve(plan.draws.capacity() + windows * geometry::fan_quads(face.corners.size()));
 }

@@ -14,8 +14,10 @@
 
 namespace frustumscreen::scene {
 
-/// Makes room in a plan for `windows` windows of at most `parts` parts that have at most `indices` indices together.
-void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts);
+/// Makes room in a plan for `windows` windows of at most `parts` parts that have at most `indices` indices together. `torches`: that may
+/// be lit.
+void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts,
+                       bool torches = false);
 
 /// Plans the view's windows. Those for which the plan has no room are left out.
 void plan_windows(const geometry::PropShape& prop, const PlanView& view, FramePlan& plan);

@@ -19,31 +19,25 @@ constexpr double min_gain = 2.0;
 /// The eye sees about half of a level's triangles.
 constexpr double seen_share = 0.5;
 
-/// The worker keeps this of a window to read its world.
-struct ToRead {
-    std::filesystem::path file;
-    pack::PackOutline outline;
-    std::uint32_t level = 0;
-    glm::dmat4 window_from_box{1.0};
-    double samples_per_m = 1.0;
-};
-
-/// Without triangles if the pack is another one by now.
-Result<FrozenWorld> read_world(const ToRead& from) {
-    bool is_same = false;
-    TRY(const pack::VerifiedPack pack,
-        pack::load_pack(from.file,
-                        [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
-                            is_same = outline == from.outline;
-                            return is_same ? std::vector{from.level} : std::vector<std::uint32_t>();
-                        }));
-    FrozenWorld world;
-    if (is_same) {
-        const scene::SceneLevel level = scene::whole_level(*pack, from.level);
-        add_level(level, pack->textures[level.mesh.texture], pack->box_size, from.window_from_box,
-                  from.samples_per_m, world);
-    }
-    return world;
+/// Reads an artifact's levels. A level has no triangles if the pack is another one by now.
+WorldMaker reader_of(const residency::KnownArtifact& known) {
+    return [file = known.file,
+            known_outline = known.outline](const LevelInWindow& shown) -> Result<FrozenWorld> {
+        bool is_same = false;
+        TRY(const pack::VerifiedPack pack,
+            pack::load_pack(file,
+                            [&](const pack::PackOutline& outline) -> Result<std::vector<std::uint32_t>> {
+                                is_same = outline == known_outline;
+                                return is_same ? std::vector{shown.level} : std::vector<std::uint32_t>();
+                            }));
+        FrozenWorld world;
+        if (is_same) {
+            const scene::SceneLevel level = scene::whole_level(*pack, shown.level);
+            add_level(level, pack->textures[level.mesh.texture], pack->box_size, shown.window_from_box,
+                      shown.samples_per_m, world);
+        }
+        return world;
+    };
 }
 
 } // namespace
@@ -77,11 +71,37 @@ std::uint32_t level_for(const pack::PackOutline& outline, const scene::ScenePlan
 }
 
 FrozenWindows::FrozenWindows(const settings::ProjectorSettings& projector, bool waits)
-    : projector_(projector.pinhole), table_from_projector_(projector.table_from_projector), waits_(waits) {}
+    : projector_(projector.pinhole), table_from_projector_(projector.table_from_projector), waits_(waits) {
+    windows_.reserve(settings::max_windows + 1); // a new one may come before the oldest goes
+    if (!waits) {
+        worker_ = std::make_unique<PatchWorker>(jobs_);
+    }
+}
+
+void FrozenWindows::make_space(std::span<const residency::KnownArtifact* const> artifacts) {
+    forget_if([](const Window& /*window*/) { return true; });
+    makers_.clear();
+    for (const residency::KnownArtifact* const known : artifacts) {
+        makers_.push_back(std::make_shared<const WorldMaker>(reader_of(*known)));
+    }
+}
+
+template <typename IsGone> void FrozenWindows::forget_if(const IsGone& is_gone) {
+    std::erase_if(windows_, [&](const Window& window) {
+        const bool goes = is_gone(window);
+        if (goes && window.job != nullptr) {
+            window.job->leave();
+            has_news_ = true;
+            if (waits_) {
+                window.job->step();
+            }
+        }
+        return goes;
+    });
+}
 
 void FrozenWindows::forget(std::uint32_t number) {
-    is_new_ =
-        std::erase_if(windows_, [&](const Window& each) { return each.number == number; }) > 0 || is_new_;
+    forget_if([number](const Window& window) { return window.number == number; });
 }
 
 void FrozenWindows::freeze(const FrozenWindow& window) {
@@ -99,12 +119,10 @@ void FrozenWindows::freeze(const FrozenWindow& window) {
     if (!patches_are_quicker(*cost_, part, view)) {
         return;
     }
-    ToRead read{.file = window.known.file,
-                .outline = window.known.outline,
-                .level = level_for(window.known.outline, window.known.plan, window.shown),
-                .window_from_box = part.prop_from_box(),
-                .samples_per_m = view.samples_per_m};
-    begin(window.number, {.make_world = [read = std::move(read)] { return read_world(read); },
+    begin(window.number, {.make_world = makers_.at(window.artifact),
+                          .shown = {.level = level_for(window.known.outline, window.known.plan, window.shown),
+                                    .window_from_box = part.prop_from_box(),
+                                    .samples_per_m = view.samples_per_m},
                           .radius_m = view.radius_m,
                           .view = view.cameras,
                           .samples = view.samples});
@@ -113,69 +131,56 @@ void FrozenWindows::freeze(const FrozenWindow& window) {
 void FrozenWindows::begin(std::uint32_t number, PatchJobSetUp set_up) {
     set_up.number = ++last_number_;
     windows_.push_back(
-        {.number = number, .job = std::make_shared<PatchJob>(std::move(set_up)), .patch = std::nullopt});
-    is_new_ = true;
+        {.number = number, .job = nullptr, .set_up = std::move(set_up), .patch = std::nullopt});
+    give_job(windows_.back());
+}
+
+void FrozenWindows::give_job(Window& window) {
+    const auto free =
+        std::find_if(jobs_.begin(), jobs_.end(), [](const PatchJob& job) { return job.is_free(); });
+    if (free != jobs_.end()) {
+        free->begin(std::move(window.set_up));
+        window.job = &*free;
+        has_news_ = true;
+    }
 }
 
 const scene::WindowPatches* FrozenWindows::look(std::uint32_t number, std::span<const glm::dvec3> eyes) {
     const auto found = std::find_if(windows_.begin(), windows_.end(),
                                     [number](const Window& window) { return window.number == number; });
-    if (found == windows_.end()) {
+    if (found == windows_.end() || found->job == nullptr) {
         return nullptr;
     }
+    PatchJob& job = *found->job;
     if (!eyes.empty()) {
-        const std::optional<std::size_t> patch = found->job->patches().hemisphere.patch_of(eyes.front());
-        looks_elsewhere_ = looks_elsewhere_ || patch != found->patch;
+        const std::optional<std::size_t> patch = job.patches().hemisphere.patch_of(eyes.front());
+        has_news_ = has_news_ || patch != found->patch;
         found->patch = patch;
-        found->job->look_from(eyes.front());
+        job.look_from(eyes.front());
     }
     if (waits_) {
-        while (!found->job->is_done()) {
-            found->job->step();
+        while (!job.is_done()) {
+            job.step();
         }
     }
-    found->job->update();
-    return &found->job->patches();
-}
-
-void FrozenWindows::give_work() {
-    PatchJobs jobs;
-    for (const Window& window : windows_) {
-        if (!window.job->is_done()) {
-            jobs.push_back(window.job);
-        }
-    }
-    if (!jobs.empty() && !worker_) {
-        worker_ = std::make_unique<PatchWorker>();
-    }
-    if (worker_) {
-        worker_->work_on(std::move(jobs));
-    }
+    job.update();
+    return &job.patches();
 }
 
 void FrozenWindows::step(std::span<const exhibit::PresentedWindow> windows) {
-    const auto is_gone = [&](const Window& window) {
+    forget_if([&](const Window& window) {
         return std::none_of(windows.begin(), windows.end(),
                             [&](const auto& presented) { return presented.number == window.number; });
-    };
-    is_new_ = std::erase_if(windows_, is_gone) > 0 || is_new_;
-    if (waits_) {
-        return;
+    });
+    for (Window& window : windows_) {
+        if (window.job == nullptr) {
+            give_job(window);
+        }
     }
-    if (is_new_) {
-        give_work();
-    } else if (looks_elsewhere_ && worker_) {
+    if (has_news_ && worker_) {
         worker_->look_again();
     }
-    is_new_ = looks_elsewhere_ = false;
-    if (windows_.empty() && worker_ && worker_->rests()) {
-        worker_.reset();
-    }
-}
-
-void FrozenWindows::clear() {
-    windows_.clear();
-    is_new_ = true;
+    has_news_ = false;
 }
 
 } // namespace frustumscreen::show

@@ -1,10 +1,12 @@
-/// The patches of the windows on the table: made by a thread that exists while they are made, drawn where they are ready.
+/// The patches of the windows on the table: made by a thread that sleeps without work, drawn where they are ready.
 ///
 /// Choice   a window is drawn by its patches if that takes at most half the time of its parts, by the costs that the governor measured; by
 ///          its parts until the eye's patch is ready, and for eyes beyond the patches (scene/window_patches.h). Parts of a world of
 ///          cells, and those in coloured light, are drawn as they are.
 /// Frames   table T; window: as scene::PinnedView.
-/// Threads  the thread that draws; it never waits for the other one, but with `waits` it makes all patches itself.
+/// Threads  the thread that draws; it never waits for the other one, but with `waits` it makes all patches itself. Without `waits` it
+///          allocates only in `make_space`: there are jobs for twice as many windows as may lie on the table. While all of them are
+///          taken, because the other thread has not freed those of earlier windows yet, a new window waits for one, drawn by its parts.
 /// Memory   for each window PatchJobSetUp::max_bytes, and the world while patches are made.
 /// Errors   none: a pack that cannot be read again has no patches.
 #pragma once
@@ -16,6 +18,8 @@
 #include "app/show/patch_view.h"
 #include "app/show/patch_worker.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,6 +31,7 @@ namespace frustumscreen::show {
 /// A view that a window froze.
 struct FrozenWindow {
     std::uint32_t number = 0;
+    std::size_t artifact = 0;
     const residency::KnownArtifact& known;
     scene::QualityLevel shown;          ///< of the whole artifact
     std::span<const scene::Part> parts; ///< in the window's frame
@@ -46,6 +51,11 @@ class FrozenWindows {
 public:
     FrozenWindows(const settings::ProjectorSettings& projector, bool waits);
 
+    FrozenWindows(const FrozenWindows&) = delete;
+    FrozenWindows& operator=(const FrozenWindows&) = delete;
+
+    /// Forgets all windows, and prepares for those of these artifacts.
+    void make_space(std::span<const residency::KnownArtifact* const> artifacts);
     /// `cost`: of frames on this GPU; before, no patches are made.
     void set_cost(const scene::FrameCost& cost) { cost_ = cost; }
     /// Begins the window's patches, in place of those that it had.
@@ -58,7 +68,6 @@ public:
     [[nodiscard]] const scene::WindowPatches* look(std::uint32_t number, std::span<const glm::dvec3> eyes);
     /// Once a frame, after all `look`: forgets windows that are not among these, and gives the thread its work.
     void step(std::span<const exhibit::PresentedWindow> windows);
-    void clear();
 
     [[nodiscard]] std::size_t size() const { return windows_.size(); }
     [[nodiscard]] bool has_thread() const { return worker_ != nullptr; }
@@ -66,20 +75,25 @@ public:
 private:
     struct Window {
         std::uint32_t number = 0;
-        std::shared_ptr<PatchJob> job;
+        PatchJob* job = nullptr;          ///< null: it waits for one
+        PatchJobSetUp set_up;             ///< of the job that it waits for
         std::optional<std::size_t> patch; ///< that was looked at last
     };
-    void give_work();
+    /// Gives the window a job, if one is free.
+    void give_job(Window& window);
+    /// Forgets the windows for which `is_gone` is true.
+    template <typename IsGone> void forget_if(const IsGone& is_gone);
 
     geometry::Pinhole projector_;
     geometry::RigidTransform table_from_projector_;
     bool waits_;
     std::optional<scene::FrameCost> cost_;
+    std::vector<std::shared_ptr<const WorldMaker>> makers_; ///< one for each artifact
     std::vector<Window> windows_;
     std::uint64_t last_number_ = 0; ///< of jobs
-    bool is_new_ = false;           ///< the worker does not know the windows
-    bool looks_elsewhere_ = false;
-    std::unique_ptr<PatchWorker> worker_;
+    bool has_news_ = false;         ///< for the thread
+    std::array<PatchJob, std::size_t{2} * settings::max_windows> jobs_{};
+    std::unique_ptr<PatchWorker> worker_; ///< last: its thread uses the jobs
 };
 
 } // namespace frustumscreen::show

@@ -201,7 +201,8 @@ Result<void> OfflineRenderer::take(const OfflineScene& scene) {
             scene::make_torch_space(plans_.back(), prop_.faces.size(), indices, parts_.size());
         }
         if (scene.setup.options.windows > 0) {
-            scene::make_window_space(plans_.back(), scene.setup.options.windows, indices, parts_.size());
+            scene::make_window_space(plans_.back(), scene.setup.options.windows, indices, parts_.size(),
+                                     scene.torch.has_value());
         }
     }
     return scene.torch ? take_torch(scene) : Result<void>();
@@ -227,7 +228,7 @@ std::unique_ptr<PatchJob> OfflineRenderer::patches_of(const Window& window, cons
                                        .table_from_projector = table_from_projector_,
                                        .eye_m = eye_m,
                                        .samples = window.parts.front().level.samples});
-    const auto make_world = [&]() -> Result<FrozenWorld> {
+    const auto make_world = [&](const LevelInWindow& /*shown*/) -> Result<FrozenWorld> {
         FrozenWorld world;
         for (std::size_t k = 0; k < kept_.size(); ++k) {
             const scene::PlacedLevel& level = window.parts[k].level;
@@ -236,11 +237,13 @@ std::unique_ptr<PatchJob> OfflineRenderer::patches_of(const Window& window, cons
         }
         return world;
     };
-    auto job = std::make_unique<PatchJob>(PatchJobSetUp{.make_world = make_world,
-                                                        .radius_m = view.radius_m,
-                                                        .view = view.cameras,
-                                                        .samples = view.samples,
-                                                        .number = windows_.size() + 1});
+    auto job = std::make_unique<PatchJob>();
+    job->begin({.make_world = std::make_shared<const WorldMaker>(make_world),
+                .shown = {},
+                .radius_m = view.radius_m,
+                .view = view.cameras,
+                .samples = view.samples,
+                .number = windows_.size() + 1});
     while (!job->is_done()) {
         job->step();
     }
@@ -249,7 +252,8 @@ std::unique_ptr<PatchJob> OfflineRenderer::patches_of(const Window& window, cons
 }
 
 bool OfflineRenderer::pin(const scene::WindowPlace& place, const geometry::RigidTransform& table_from_prop,
-                          const glm::dvec3& eye_m, double seconds) {
+                          const glm::dvec3& eye_m, double seconds,
+                          std::span<const scene::PlacedTorch> torches) {
     pose_cells(seconds);
     const std::optional<scene::WorldBall> world = scene::ball_around(parts_);
     const std::optional<scene::PinnedView> view = world ? scene::pin_view({.table_from_prop = table_from_prop,
@@ -263,6 +267,10 @@ bool OfflineRenderer::pin(const scene::WindowPlace& place, const geometry::Rigid
     }
     auto window = std::make_unique<Window>(Window{*view, {}, nullptr});
     scene::move_behind(view->window_from_prop, parts_, window->parts);
+    for (scene::PlacedTorch torch : torches) {
+        torch.table_from_torch = table_from_prop.inverse() * torch.table_from_torch;
+        window->torches.push_back(scene::moved_behind(*view, view->table_from_window, torch));
+    }
     if (!kept_.empty()) {
         window->patches = patches_of(*window, eye_m);
     }
@@ -270,7 +278,8 @@ bool OfflineRenderer::pin(const scene::WindowPlace& place, const geometry::Rigid
                                .table_from_window = view->table_from_window,
                                .parts = window->parts,
                                .brightness = exposure_,
-                               .patches = window->patches ? &window->patches->patches() : nullptr});
+                               .patches = window->patches ? &window->patches->patches() : nullptr,
+                               .torches = window->torches});
     windows_.push_back(std::move(window));
     return true;
 }

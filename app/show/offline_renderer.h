@@ -46,9 +46,10 @@ public:
                                       std::span<const glm::dvec3> eyes_m, double seconds = 0.0,
                                       std::span<const scene::PlacedTorch> torches = {});
     /// Pins what the eye sees through the prop at this pose as a window; `draw` draws it from now on. The artifact in it stays
-    /// as it is at that time. At most OfflineOptions::windows. False: the eye is not above the table.
+    /// as it is at that time, in the light of `torches`, table frame. At most OfflineOptions::windows. False: the eye is not above the table.
     [[nodiscard]] bool pin(const scene::WindowPlace& place, const geometry::RigidTransform& table_from_prop,
-                           const glm::dvec3& eye_m, double seconds = 0.0);
+                           const glm::dvec3& eye_m, double seconds = 0.0,
+                           std::span<const scene::PlacedTorch> torches = {});
     /// The torch of the settings with the content of the options, `seconds` after it began. Needs OfflineOptions::torch.
     [[nodiscard]] scene::PlacedTorch torch_at(const geometry::RigidTransform& table_from_torch,
                                               double seconds);
@@ -72,7 +73,8 @@ private:
     struct Window {
         scene::PinnedView view;
         std::vector<scene::Part> parts;
-        std::unique_ptr<PatchJob> patches; ///< none: not asked for
+        std::unique_ptr<PatchJob> patches;         ///< none: not asked for
+        std::vector<scene::PlacedTorch> torches{}; ///< table frame
     };
     /// A level's triangles and texture, for the windows' patches.
     struct Kept {

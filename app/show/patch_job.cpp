@@ -1,14 +1,18 @@
 #include "app/show/patch_job.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace frustumscreen::show {
 
-PatchJob::PatchJob(PatchJobSetUp set_up)
-    : set_up_(std::move(set_up)), patches_{.hemisphere = ldi::Hemisphere(set_up_.radius_m),
-                                           .box = {},
-                                           .samples = set_up_.samples} {}
+void PatchJob::begin(PatchJobSetUp set_up) {
+    set_up_ = std::move(set_up);
+    patches_ = {.hemisphere = ldi::Hemisphere(set_up_.radius_m),
+                .box = {},
+                .samples = set_up_.samples,
+                .patches = {}};
+    looked_at_.store(0, std::memory_order_relaxed);
+    state_.store(State::Begun, std::memory_order_release);
+}
 
 void PatchJob::look_from(const glm::dvec3& eye) {
     if (const std::optional<std::size_t> patch = patches_.hemisphere.patch_of(eye)) {
@@ -29,11 +33,15 @@ bool PatchJob::has_first() const {
     return is_done() || is_made_[looked_at_.load(std::memory_order_relaxed)].load(std::memory_order_acquire);
 }
 
-void PatchJob::begin() {
-    Result<FrozenWorld> world = set_up_.make_world();
-    set_up_.make_world = nullptr; // and what it keeps
+bool PatchJob::needs_work() const {
+    const State state = state_.load(std::memory_order_acquire);
+    return state == State::Begun || state == State::Left;
+}
+
+void PatchJob::make_world() {
+    Result<FrozenWorld> world = (*set_up_.make_world)(set_up_.shown);
     if (!world || world->worlds.empty()) {
-        done_.store(true, std::memory_order_release);
+        end();
         return;
     }
     box_ = world->box;
@@ -51,12 +59,32 @@ void PatchJob::hand_over() {
     }
 }
 
+void PatchJob::end() {
+    State begun = State::Begun;
+    state_.compare_exchange_strong(begun, State::Done, std::memory_order_release, std::memory_order_relaxed);
+}
+
+void PatchJob::free() {
+    maker_.reset();
+    for (std::size_t k = 0; k < ldi::patch_count; ++k) {
+        made_[k].reset();
+        is_made_[k].store(false, std::memory_order_relaxed);
+    }
+    set_up_.make_world.reset();
+    state_.store(State::Free, std::memory_order_release);
+}
+
 void PatchJob::step() {
-    if (is_done()) {
+    const State state = state_.load(std::memory_order_acquire);
+    if (state == State::Left) {
+        free();
+        return;
+    }
+    if (state != State::Begun) {
         return;
     }
     if (!maker_) {
-        begin();
+        make_world();
         return;
     }
     maker_->look_from(patches_.hemisphere.middle_of(looked_at_.load(std::memory_order_relaxed)));
@@ -64,7 +92,7 @@ void PatchJob::step() {
     hand_over();
     if (!goes_on) {
         maker_.reset();
-        done_.store(true, std::memory_order_release);
+        end();
     }
 }
 

@@ -1,7 +1,9 @@
-/// The patches of one frozen window: one thread makes them, another one draws those that are made.
+/// The patches of one frozen window: one thread makes them, another one draws those that are made. A job may serve one window after
+/// the other.
 ///
 /// Frames   window (scene/window_patches.h).
-/// Threads  `look_from`, `update`, `patches` and `is_done`: the thread that draws; they never wait. `step`: the thread that makes.
+/// Threads  `step`: the thread that makes, which frees all that it made. Everything else: the thread that
+///          draws; it never waits and allocates nothing.
 /// Memory   until all patches are made, the world's triangles and the cameras' pictures; then the patches, up to `max_bytes` of
 ///          `PatchJobSetUp`.
 /// Errors   a world that cannot be read has no patches: its window goes on as it was drawn.
@@ -22,8 +24,18 @@
 
 namespace frustumscreen::show {
 
+/// The level that a window shows, and where.
+struct LevelInWindow {
+    std::uint32_t level = 0; ///< of the pack
+    glm::dmat4 window_from_box{1.0};
+    double samples_per_m = 1.0; ///< as PatchView::samples_per_m
+};
+/// Makes a window's world: slow; called on the thread that makes.
+using WorldMaker = std::function<Result<FrozenWorld>(const LevelInWindow&)>;
+
 struct PatchJobSetUp {
-    std::function<Result<FrozenWorld>()> make_world; ///< slow; called on the thread that makes
+    std::shared_ptr<const WorldMaker> make_world;
+    LevelInWindow shown;
     double radius_m = 1.0;    ///< of the eye from the window's middle, when it was frozen
     ldi::CameraView view;     ///< its pixels are the samples of the window's picture
     int samples = 1;          ///< a pixel
@@ -33,7 +45,11 @@ struct PatchJobSetUp {
 
 class PatchJob {
 public:
-    explicit PatchJob(PatchJobSetUp set_up);
+    /// True: `begin` may be called.
+    [[nodiscard]] bool is_free() const { return state_.load(std::memory_order_acquire) == State::Free; }
+    void begin(PatchJobSetUp set_up);
+    /// Its patches are not drawn any more. The thread that makes frees the job.
+    void leave() { state_.store(State::Left, std::memory_order_release); }
 
     /// Puts the eye's patch first.
     void look_from(const glm::dvec3& eye);
@@ -41,24 +57,31 @@ public:
     void update();
     [[nodiscard]] const scene::WindowPatches& patches() const { return patches_; }
     /// All that can be made is made. True on either thread.
-    [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
+    [[nodiscard]] bool is_done() const { return state_.load(std::memory_order_acquire) == State::Done; }
     /// The patch that is looked at is made, or none can be made any more.
     [[nodiscard]] bool has_first() const;
+    [[nodiscard]] bool is_left() const { return state_.load(std::memory_order_acquire) == State::Left; }
+    /// `step` has something to do.
+    [[nodiscard]] bool needs_work() const;
 
     /// Does a piece of the work.
     void step();
 
 private:
-    void begin();
+    enum class State : std::uint8_t { Free, Begun, Done, Left };
+    void make_world();
     void hand_over();
+    /// Unless it was left meanwhile.
+    void end();
+    void free();
 
+    std::atomic<State> state_{State::Free};
     PatchJobSetUp set_up_;
-    scene::WindowPatches patches_;
+    scene::WindowPatches patches_{.hemisphere = ldi::Hemisphere(1.0), .box = {}};
     std::atomic<std::size_t> looked_at_{0}; ///< a patch
     /// Written once each by the thread that makes, before its flag is set.
     std::array<std::shared_ptr<const ldi::PointPatch>, ldi::patch_count> made_;
     std::array<std::atomic<bool>, ldi::patch_count> is_made_{};
-    std::atomic<bool> done_{false}, has_box_{false};
     geometry::Box box_{};
     std::optional<ldi::PointMaker> maker_; ///< of the thread that makes
 };

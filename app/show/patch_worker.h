@@ -1,6 +1,6 @@
 /// The thread that makes the patches of frozen windows, in the time that the picture leaves.
 ///
-/// Threads  `work_on` from one thread, which never waits. The worker's own thread has a low priority; it sleeps without work.
+/// Threads  `look_again` from one thread, which never waits. The worker's own thread has a low priority; it sleeps without work.
 ///          Destruction waits until its piece of work is done.
 /// Errors   those of jobs (patch_job.h).
 #pragma once
@@ -9,37 +9,32 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <thread>
-#include <vector>
 
 namespace frustumscreen::show {
 
-using PatchJobs = std::vector<std::shared_ptr<PatchJob>>;
-
-/// The job to go on with: one that lacks the patch that is looked at, otherwise one that is not done; null: all are done.
-[[nodiscard]] PatchJob* next_job(const PatchJobs& jobs);
+/// The job to go on with: one that was left, otherwise one that lacks the patch that is looked at, otherwise one that is not done;
+/// null: none needs work.
+[[nodiscard]] PatchJob* next_job(std::span<PatchJob> jobs);
 
 class PatchWorker {
 public:
-    PatchWorker();
+    /// The jobs must outlive it.
+    explicit PatchWorker(std::span<PatchJob> jobs);
     ~PatchWorker();
     PatchWorker(const PatchWorker&) = delete;
     PatchWorker& operator=(const PatchWorker&) = delete;
 
-    /// From now on these and no others, the most urgent first.
-    void work_on(PatchJobs jobs);
-    /// Wakes the thread: an eye looks at another patch.
+    /// Wakes the thread: a job was begun or left, or an eye looks at another patch.
     void look_again();
-    /// It sleeps: destruction does not wait.
-    [[nodiscard]] bool rests() const { return rests_; }
 
 private:
     void work();
 
-    std::atomic<PatchJobs*> given_{nullptr}; ///< owned by whichever thread exchanges it out
-    std::atomic<std::uint32_t> news_{0};     ///< changes with every call
-    std::atomic<bool> ends_{false}, rests_{false};
+    std::span<PatchJob> jobs_;
+    std::atomic<std::uint32_t> news_{0}; ///< changes with every call
+    std::atomic<bool> ends_{false};
     std::jthread thread_; ///< last: it uses the others
 };
 

@@ -7,7 +7,8 @@
 ///          states together need, so that they compare. Until the layer has come, the window is dark.
 /// Time     the windows' time is part of the frame's, which the governor bounds by the level in the prop; frames that miss their
 ///          deadline nevertheless draw windows with one sample a pixel (window_samples.h).
-/// Live     the cells of a live window stand as those in the prop do, while the artifact is on show. Torches light the prop alone.
+/// Live     the cells of a live window stand as those in the prop do, and torches light it as the prop, while the artifact is on show.
+/// Torches  another window keeps the light that lay on the artifact when it was pinned; a state has none (window_light.h).
 /// Slant    a window is seen from within 60 degrees of its normal; beyond `full_deg` it fades, and is dark at the limit. Its
 ///          frame stays.
 /// Memory   one plan for each window and eye, for the largest level of any artifact of the set; the plan of the frame
@@ -26,6 +27,7 @@
 #include "app/scene/window_samples.h"
 #include "app/settings/settings.h"
 #include "app/show/frozen_windows.h"
+#include "app/show/window_light.h"
 
 #include <array>
 #include <cstddef>
@@ -58,10 +60,11 @@ public:
     [[nodiscard]] std::span<const std::size_t> layers_of(const residency::KnownArtifact& artifact);
     void place_frames(const exhibit::Presentation& presentation, double brightness,
                       residency::OnTable& on_table) const;
-    /// Freezes new windows, and returns the windows that are seen; valid until the next call.
+    /// Freezes new windows, and returns the windows that are seen; valid until the next call. `torches`: that light the prop.
     [[nodiscard]] std::span<const scene::PlacedWindow> place(const exhibit::Presentation& presentation,
                                                              std::span<const glm::dvec3> eyes_m,
-                                                             const residency::ArtifactCache& cache);
+                                                             const residency::ArtifactCache& cache,
+                                                             std::span<const scene::PlacedTorch> torches);
     /// A frame took `ms` until it was complete.
     void record_time(MonotonicTime now, double ms) { samples_.record(now, ms, shows_); }
     /// The level in a window at a place, to draw one frame with.
@@ -82,10 +85,16 @@ private:
         std::vector<scene::Part> moved;    ///< window's frame
         scene::PinnedView view;
         bool is_aimed = false;
+        WindowLight light;
+        std::optional<world::SiteView> part; ///< of a site, that it shows
+        /// Its levels may leave the memory.
+        void let_go();
     };
+    /// Of windows that have gone.
+    void let_go(const exhibit::PresentedWindows& presented);
     [[nodiscard]] Held& held_of(const exhibit::PresentedWindow& window,
                                 const exhibit::PresentedWindows& presented,
-                                const residency::ArtifactCache& cache);
+                                const residency::ArtifactCache& cache, const LightInProp& light);
     /// Sets `parts`, unless what they need has not come.
     void freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                 Held& held) const;
@@ -102,10 +111,17 @@ private:
                                      std::span<const glm::dvec3> eyes_m,
                                      const residency::ArtifactCache& cache, scene::PlacedWindow& placed);
     void set_samples(Held& held) const;
-    /// Moves the parts of a live window as those in the prop stand now.
-    void go_on(const residency::RunCells& cells, Held& held) const;
+    /// Sets the parts of a window that shows a part of a site to the best levels that are there, of all regions: its eye sees others than
+    /// the prop's faces.
+    static void refresh(const residency::RunCells& cells, Held& held);
+    /// Tells each site which parts of it windows show.
+    void expect_parts(const exhibit::Presentation& presentation, const residency::ArtifactCache& cache) const;
+    /// Sets the parts and the light of a live window to what the prop shows now.
+    void go_on(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
+               const LightInProp& light, Held& held) const;
 
     settings::WindowSettings windows_;
+    bool torches_; ///< there may be some
     double frame_m_;
     glm::dvec3 prop_middle_m_;
     scene::WorldBall prop_ball_; ///< around the prop

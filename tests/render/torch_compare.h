@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -38,8 +39,13 @@ class Compared {
 public:
     Compared(Interlocked& world, const TestTable& table, std::span<const scene::PlacedTorch> torches,
              const Tolerance& tolerance)
-        : world_(world), table_(table), torches_(torches), tolerance_(tolerance),
-          eye_(table.table_from_prop.inverse().point(table.eye_m)) {
+        : Compared(world, table, torches, tolerance, table.table_from_prop.inverse().point(table.eye_m),
+                   [&](const glm::dvec2& pixel) { return world.seen(table, pixel); }) {}
+    /// `table`: in which the torches light the prop. `eye`: prop frame. `seen`: of the world, by pixels of the two pictures.
+    Compared(const Interlocked& world, const TestTable& table, std::span<const scene::PlacedTorch> torches,
+             const Tolerance& tolerance, const glm::dvec3& eye,
+             std::function<SeenPart(const glm::dvec2&)> seen)
+        : torches_(torches), tolerance_(tolerance), eye_(eye), seen_(std::move(seen)) {
         for (const scene::PlacedTorch& torch : torches) {
             truths_.emplace_back(world, torch, table);
         }
@@ -55,7 +61,7 @@ public:
 private:
     void count_pixel(const glm::dvec2& pixel, const glm::u8vec4& before, const glm::u8vec4& after,
                      Counts& counts) const {
-        const SeenPart place = world_.seen(table_, pixel);
+        const SeenPart place = seen_(pixel);
         std::vector<bool> lit;
         bool in_beam = false;
         for (const TorchTruth& truth : truths_) {
@@ -121,7 +127,7 @@ private:
             const double angle = k * std::numbers::pi / 8.0;
             for (const double share : {0.5, 1.0}) {
                 const double r = share * tolerance_.eye_px;
-                if (differs(world_.seen(table_, pixel + r * glm::dvec2(std::cos(angle), std::sin(angle))))) {
+                if (differs(seen_(pixel + r * glm::dvec2(std::cos(angle), std::sin(angle))))) {
                     return true;
                 }
             }
@@ -151,11 +157,10 @@ private:
         return false;
     }
 
-    Interlocked& world_;
-    const TestTable& table_;
     std::span<const scene::PlacedTorch> torches_;
     Tolerance tolerance_;
     glm::dvec3 eye_;
+    std::function<SeenPart(const glm::dvec2&)> seen_;
     std::vector<TorchTruth> truths_;
 };
 

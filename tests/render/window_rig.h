@@ -180,14 +180,14 @@ struct WindowRig {
     std::vector<Pinned> pinned;
 
     WindowRig(const std::vector<WorldObject>& objects, std::span<const Way> chosen, int samples = 1,
-              const geometry::Lens& lens = {}, std::size_t room = 6)
-        : world(geometry::make_frustum({}), objects, samples, lens, 256), table(table_of(lens)) {
+              const geometry::Lens& lens = {}, std::size_t room = 6, bool torches = false)
+        : world(geometry::make_frustum({}), objects, samples, lens, 256, torches), table(table_of(lens)) {
         world.choose(chosen);
         std::size_t indices = 0;
         for (const scene::Part& part : world.parts) {
             indices += part.level.triangles ? part.level.triangles->indices.size() : 0;
         }
-        scene::make_window_space(world.plan, room, 2 * indices, 2 * world.parts.size());
+        scene::make_window_space(world.plan, room, 2 * indices, 2 * world.parts.size(), torches);
     }
     void pin(const scene::WindowPlace& place) { pinned.emplace_back(table, world.parts, place); }
     /// As many as fit beside each other, some of them partly behind the prop or out of the picture.

@@ -1,5 +1,7 @@
-// The patches of frozen windows: a thread that is slow never holds up a frame, and none exists without windows.
+// The patches of frozen windows: a thread that is slow never holds up a frame, and a frame that freezes a window allocates nothing.
 #include "app/show/frozen_windows.h"
+#include "tests/render/counted_new.h"
+#include "tests/show/shown_packs.h"
 
 #include <gtest/gtest.h>
 
@@ -24,8 +26,10 @@ FrozenWorld a_wall() {
     return world;
 }
 
-PatchJobSetUp set_up(std::function<Result<FrozenWorld>()> make_world) {
-    return {.make_world = std::move(make_world),
+PatchJobSetUp set_up(const std::function<Result<FrozenWorld>()>& make_world) {
+    return {.make_world = std::make_shared<const WorldMaker>(
+                [make_world](const LevelInWindow& /*shown*/) { return make_world(); }),
+            .shown = {},
             .radius_m = 0.5,
             .view = {.half_extent_m = glm::dvec2(0.05), .width = 32, .height = 32}};
 }
@@ -106,20 +110,28 @@ TEST(FrozenWindows, ThatWaitHaveTheirPatchesInTheFirstFrameAndNoThread) {
     EXPECT_FALSE(windows.has_thread());
 }
 
-TEST(FrozenWindows, NoThreadIsThereWithoutAWindow) {
+TEST(FrozenWindows, MoreThanThereAreJobsForWaitDrawnByTheirParts) {
     FrozenWindows windows({}, false);
-    windows.step({});
-    EXPECT_FALSE(windows.has_thread());
-    EXPECT_EQ(windows.look(1, {&above, 1}), nullptr);
-    windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
-    EXPECT_TRUE(comes(windows, 1, above));
-    EXPECT_TRUE(windows.has_thread());
-    for (int frame = 0; frame < 6000 && windows.has_thread(); ++frame) {
-        windows.step({}); // the window has gone
-        std::this_thread::sleep_for(milliseconds(1));
+    std::promise<void> opens;
+    std::shared_future<void> open = opens.get_future().share();
+    const auto hangs = [open]() -> Result<FrozenWorld> {
+        open.wait();
+        return a_wall();
+    };
+    std::uint32_t number = 0;
+    for (int k = 0; k < 20; ++k) { // frozen again and again, while the thread hangs in the first
+        windows.begin(++number, set_up(hangs));
+        const exhibit::PresentedWindow shown = presented(number);
+        windows.step({&shown, 1});
+        const scene::WindowPatches* const patches = windows.look(number, {&above, 1});
+        EXPECT_TRUE(patches == nullptr || scene::points_for(*patches, above) == nullptr);
+        EXPECT_EQ(windows.size(), 1U);
     }
-    EXPECT_EQ(windows.size(), 0U);
-    EXPECT_FALSE(windows.has_thread());
+    EXPECT_EQ(windows.look(number, {&above, 1}), nullptr) << "all jobs are taken";
+    opens.set_value();
+    EXPECT_TRUE(comes(windows, number, above));
+    windows.begin(++number, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
+    EXPECT_TRUE(comes(windows, number, above)) << "a job serves one window after the other";
 }
 
 scene::PlacedLevel level_of(std::size_t triangles) {
@@ -144,6 +156,43 @@ TEST(FrozenWindows, PatchesAreChosenWhereTheyTakeLessTime) {
     quick.mesh.ms_per_triangle = quick.mesh.ms_per_sample = 1e-7;
     EXPECT_FALSE(patches_are_quicker(quick, level_of(200'000), view)) << "a GPU that draws them at once";
     EXPECT_FALSE(patches_are_quicker({}, level_of(200'000), view)) << "no cost is known";
+}
+
+TEST(FrozenWindows, AFrameThatFreezesAllocatesNothing) {
+    if (!synthetic::allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    const synthetic::ShownPacks files(1);
+    const residency::KnownArtifact known = files.known(0);
+    const std::array artifacts{&known};
+    FrozenWindows windows(settings::steep_table().projector, false);
+    windows.make_space(artifacts);
+    windows.set_cost(
+        {.mesh = {.fixed_ms = 5.0, .ms_per_triangle = 1.0, .ms_per_sample = 1e-3}, // patches are quicker
+         .raster = {},
+         .on_gpu = {}});
+    const scene::PinnedView view = scene::pin_view({.table_from_prop = {},
+                                                    .prop_middle = {0.0, 0.0, 0.1},
+                                                    .eye_m = {0.0, -0.5, 0.6},
+                                                    .world = {.middle = {0.0, 0.0, 0.1}, .radius = 0.1},
+                                                    .place = {}})
+                                       .value();
+    const std::array<scene::Part, 1> parts{{{level_of(2000), std::nullopt}}};
+    for (const std::uint32_t number : {1U, 2U, 3U}) {
+        const exhibit::PresentedWindow shown = presented(number);
+        const long before = synthetic::allocations_so_far();
+        windows.freeze({.number = number,
+                        .artifact = 0,
+                        .known = known,
+                        .shown = {.level = 1},
+                        .parts = parts,
+                        .view = view,
+                        .eye_m = {0.0, -0.5, 0.6}});
+        const scene::WindowPatches* const patches = windows.look(number, {&above, 1});
+        windows.step({&shown, 1});
+        EXPECT_EQ(synthetic::allocations_so_far() - before, 0) << number;
+        EXPECT_NE(patches, nullptr) << "patches are made";
+    }
 }
 
 TEST(FrozenWindows, PatchesOfAReliefShowALevelThatErrsNoMore) {

@@ -1,13 +1,10 @@
 // A site of 36 regions in the artifact cache, while a visitor travels from region to region: bytes in memory, by the store and by the
 // cache, and the triangles that are drawn.
-#include "app/pack/pack_site.h"
-#include "app/pack/pack_world.h"
 #include "app/residency/artifact_cache.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/counted_new.h"
-#include "tests/show/shown_packs.h"
+#include "tests/show/site_pack.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,44 +19,8 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-constexpr int site_rows = 6;
-constexpr std::size_t site_regions = 36;
 constexpr double site_zoom = 6.0;
 constexpr std::uint64_t no_limit = std::uint64_t{1} << 40U;
-
-/// Has two levels: the coarse one is good enough in the miniature, and not at six times its size.
-pack::Pack region_pack() {
-    pack::Pack pack = numbered_pack(0);
-    pack.levels[0].error = {4e-2F, 8e-2F, 2e-1F, 0.0F};
-    return pack;
-}
-
-/// Regions of equal size on the squares of a ground.
-pack::Pack site_pack() {
-    pack::Pack whole = numbered_pack(0);
-    pack::PackWorld world;
-    pack::PackSite site{.max_triangles = 2000, .places = {}};
-    std::vector<pack::Pack> geometry;
-    for (std::size_t k = 0; k < site_regions; ++k) {
-        geometry.push_back(region_pack());
-        const glm::dvec3 size = whole.box_size / static_cast<double>(site_rows);
-        const glm::dvec3 middle(size.x * (static_cast<double>(k % site_rows) - 2.5),
-                                size.y * (static_cast<double>(k / site_rows) - 2.5), 0.0);
-        pack::PackCell& cell = world.cells.emplace_back();
-        cell.cell.name = fmt::format("region {}", k + 1);
-        cell.cell.has_geometry = true;
-        cell.cell.parent_from_base =
-            glm::scale(glm::translate(glm::dmat4(1.0), middle), glm::dvec3(1.0 / site_rows));
-        cell.triangles = 1728;
-        cell.low = middle - glm::dvec3(0.5 * size.x, 0.5 * size.y, 0.0);
-        cell.high = middle + glm::dvec3(0.5 * size.x, 0.5 * size.y, size.z);
-        site.places.push_back(middle);
-    }
-    const Result<void> put = pack::put_world(whole, world, geometry);
-    EXPECT_TRUE(put) << put.error().message;
-    pack::put_site(site, whole);
-    return whole;
-}
 
 class SitePages : public testing::Test {
 protected:

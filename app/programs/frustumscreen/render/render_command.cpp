@@ -186,17 +186,25 @@ simulation::VisitorCamera camera_of(const Request& request, const simulation::Vi
                : simulation::visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, width, height);
 }
 
+std::vector<scene::PlacedTorch> torches_at(const Request& request,
+                                           const tracking::TrackedState& tracked_state, double seconds,
+                                           show::OfflineRenderer& renderer) {
+    std::vector<scene::PlacedTorch> torches;
+    if (const tracking::TrackedTorch& torch = tracked_state.torches.front();
+        torch.share > 0.0 && !request.options.torch.empty()) {
+        torches.push_back(renderer.torch_at(torch.table_from_torch, seconds));
+    }
+    return torches;
+}
+
 /// Writes one frame's files and returns its line of frames.csv.
 Result<std::string> make_frame(const Studio& studio, std::size_t frame,
                                const tracking::TrackedState& tracked_state,
                                std::vector<simulation::VisitorFrame>& visitor_frames) {
     const std::vector<glm::dvec3> eyes_m = studio.eyes_m(tracked_state);
     const double seconds = to_seconds(tracked_state.time - studio.begin);
-    std::vector<scene::PlacedTorch> torches;
-    if (const tracking::TrackedTorch& torch = tracked_state.torches.front();
-        torch.share > 0.0 && !studio.request.options.torch.empty()) {
-        torches.push_back(studio.renderer.torch_at(torch.table_from_torch, seconds));
-    }
+    const std::vector<scene::PlacedTorch> torches =
+        torches_at(studio.request, tracked_state, seconds, studio.renderer);
     show::OfflinePicture picture =
         studio.renderer.draw(tracked_state.table_from_prop, eyes_m, seconds, torches);
     const std::int64_t t_us = to_microseconds(tracked_state.time);
@@ -272,11 +280,12 @@ Result<void> render_screen(const Request& request, const settings::Settings& set
                                  frames);
 }
 
-Result<void> pin_windows(const std::vector<scene::WindowPlace>& places,
+Result<void> pin_windows(const Request& request, const std::vector<scene::WindowPlace>& places,
                          const std::vector<tracking::TrackedState>& frames, show::OfflineRenderer& renderer) {
     for (std::size_t k = 0; k < places.size() && !frames.empty(); ++k) {
         const glm::dvec3& eye_m = frames.front().eye_m;
-        if (!renderer.pin(places[k], frames.front().table_from_prop, eye_m)) {
+        if (!renderer.pin(places[k], frames.front().table_from_prop, eye_m, 0.0,
+                          torches_at(request, frames.front(), 0.0, renderer))) {
             return bad_input(
                 "render.pin_eye",
                 "--pin: the eye of the first pose is at {:.3f}, {:.3f}, {:.3f} m; whoever pins a "
@@ -309,7 +318,7 @@ Result<void> render_prop(const Request& request, const settings::CheckedSettings
     }
     TRY_VOID(make_folder(request.out));
     TRY(const std::unique_ptr<show::OfflineRenderer> renderer, show::OfflineRenderer::create(scene));
-    TRY_VOID(pin_windows(places, frames, *renderer));
+    TRY_VOID(pin_windows(request, places, frames, *renderer));
     std::unique_ptr<ScreenPainter> screen;
     if (settings->screen.exists() && request.view != "projector") {
         TRY(screen, ScreenPainter::create(*settings, request.eye, true));
