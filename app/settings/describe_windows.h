@@ -22,7 +22,7 @@ template <typename Fields> void window_settings(Fields& fields, auto& windows) {
     fields.number("width_m", windows.width_m, side, "of each, as its visitor sees it");
     fields.number("depth_m", windows.depth_m, side, "of each, away from the visitor");
     fields.flag("live", windows.live,
-                "behaviours go on in windows; otherwise a window is frozen when it is pinned");
+                "behaviours and torches go on in windows; otherwise a window is frozen when it is pinned");
 }
 
 } // namespace frustumscreen::settings

@@ -100,6 +100,9 @@ private:
                 Held& held) const;
     void aim(const exhibit::PresentedWindow& window, const std::optional<scene::WorldBall>& states,
              Held& held) const;
+    /// Sets what the window shows in this frame.
+    void update(const exhibit::PresentedWindow& window, bool is_on_show,
+                const residency::ArtifactCache& cache, const LightInProp& light, Held& held);
     /// Patches show a frozen window in its level's own colours; other windows are drawn by their parts.
     void begin_patches(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
                        Held& held);

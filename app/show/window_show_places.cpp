@@ -21,6 +21,15 @@ double share_for(const glm::dvec3& eye_m, const glm::dvec2& middle_m) {
                           (WindowShow::limit_deg - WindowShow::full_deg));
 }
 
+/// The least of all eyes.
+double share_for(std::span<const glm::dvec3> eyes_m, const glm::dvec2& middle_m) {
+    double share = 1.0;
+    for (const glm::dvec3& eye_m : eyes_m) {
+        share = std::min(share, share_for(eye_m, middle_m));
+    }
+    return share;
+}
+
 scene::WindowPlace place_of(const typography::TableRectangle& rectangle) {
     return {.middle_m = rectangle.centre_m,
             .yaw_rad = 0.5 * std::numbers::pi * rectangle.quarter_turns,
@@ -228,6 +237,25 @@ const scene::WindowPatches* WindowShow::patches_for(std::uint32_t number,
     return frozen_.look(number, std::span(eyes).first(count));
 }
 
+void WindowShow::update(const exhibit::PresentedWindow& window, bool is_on_show,
+                        const residency::ArtifactCache& cache, const LightInProp& light, Held& held) {
+    const residency::RunCells* const cells = cache.find_cells(window.artifact);
+    const bool is_new =
+        held.comings != window.comings || held.turn_rad != window.turn_rad || held.zoom != window.zoom;
+    if (is_new) {
+        aim(window, cells != nullptr ? cells->states_ball() : std::nullopt, held);
+    }
+    const bool is_darker = !is_on_show && held.light.leave_out_textures();
+    if (is_new || is_darker || held.follows != window.follows) {
+        begin_patches(window, cache, held);
+    }
+    if (held.part && held.is_aimed && cells != nullptr) {
+        refresh(*cells, held);
+    } else if (window.live && !window.state && held.is_aimed && is_on_show) {
+        go_on(window, cache, light, held);
+    }
+}
+
 std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentation& presentation,
                                                        std::span<const glm::dvec3> eyes_m,
                                                        const residency::ArtifactCache& cache,
@@ -240,31 +268,15 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
     for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
         Held& held = held_of(window, presentation.windows, cache, light);
         held.lost = held.lost || cache.find(window.artifact) == nullptr;
+        if (held.lost) {
+            held.let_go();
+        }
         if (held.lost || !held.is_frozen || window.comings == 0) {
             continue;
         }
-        const residency::RunCells* const cells = cache.find_cells(window.artifact);
-        const bool is_new =
-            held.comings != window.comings || held.turn_rad != window.turn_rad || held.zoom != window.zoom;
-        if (is_new) {
-            aim(window, cells != nullptr ? cells->states_ball() : std::nullopt, held);
-        }
-        const bool is_on_show = window.artifact == presentation.artifact;
-        const bool is_darker = !is_on_show && held.light.leave_out_textures();
-        if (is_new || is_darker || held.follows != window.follows) {
-            begin_patches(window, cache, held);
-        }
-        if (held.part && held.is_aimed && cells != nullptr) {
-            refresh(*cells, held);
-        } else if (window.live && held.is_aimed && is_on_show) {
-            go_on(window, cache, light, held);
-        }
-        double share = 1.0;
-        for (const glm::dvec3& eye : eyes_m) {
-            share = std::min(share, share_for(eye, window.rectangle.centre_m));
-        }
-        const double brightness =
-            cache.exposure(window.artifact) * window.brightness * share * held.light.house_light();
+        update(window, window.artifact == presentation.artifact, cache, light, held);
+        const double brightness = cache.exposure(window.artifact) * window.brightness *
+                                  share_for(eyes_m, window.rectangle.centre_m) * held.light.house_light();
         if (!held.is_aimed || brightness <= 0.0 || count >= placed_.size()) {
             continue;
         }
@@ -317,11 +329,8 @@ bool WindowShow::place_preview(const exhibit::Presentation& presentation, std::s
              .brightness = 1.0},
             std::nullopt, preview_);
     }
-    double share = 1.0;
-    for (const glm::dvec3& eye : eyes_m) {
-        share = std::min(share, share_for(eye, place->rectangle.centre_m));
-    }
-    const double brightness = cache.exposure(presentation.artifact) * place->brightness * share;
+    const double brightness = cache.exposure(presentation.artifact) * place->brightness *
+                              share_for(eyes_m, place->rectangle.centre_m);
     if (preview_.number != number || !preview_.is_aimed || brightness <= 0.0) {
         return false;
     }

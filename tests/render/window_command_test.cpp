@@ -126,6 +126,34 @@ TEST_F(PinCommand, PatchesShowWhatGeometryShows) {
     EXPECT_EQ(run(pins + "points"), 2);
 }
 
+/// The first pose has a torch, at the visitor's side, that points at the prop; the second has none.
+TEST_F(PinCommand, WindowsKeepTheTorchsLightOfTheFirstPose) {
+    std::string poses = text("poses.csv");
+    poses.insert(poses.find("2000,"), "1000,3,0,-0.3,0.2,0.5,-0.8660254,0,0,1\n");
+    put("lit.csv", poses);
+    const std::string pins = "--pin 0.15,0 --pin -0.15,0,30 ";
+    ASSERT_EQ(run(pins, "unlit", "lit.csv"), 0) << text("err.txt");
+    ASSERT_EQ(run(pins + "--torch white", "lit", "lit.csv"), 0) << text("err.txt");
+    for (const int frame : {0, 1}) {
+        const image::Image8 unlit = picture("unlit", frame);
+        const image::Image8 lit = picture("lit", frame);
+        std::size_t prop = 0;
+        std::size_t left = 0;
+        std::size_t right = 0;
+        for (int y = 0; y < unlit.height; ++y) {
+            for (int x = 0; x < unlit.width; ++x) {
+                EXPECT_GE(lit.at(x, y).r, unlit.at(x, y).r) << x << ' ' << y;
+                if (lit.at(x, y) != unlit.at(x, y)) {
+                    ++(is_prop(x, y, 0.01 * frame) ? prop : x < unlit.width / 2 ? left : right);
+                }
+            }
+        }
+        EXPECT_EQ(prop > 300, frame == 0) << prop;
+        EXPECT_GT(left, 30U) << frame;
+        EXPECT_GT(right, 30U) << frame;
+    }
+}
+
 TEST_F(PinCommand, WrongUseIsOneSentence) {
     for (const char* const pin : {"0.1", "0.1,x", "0.1,0.2,30,4", "1e9,0", "nan,0", "0.1,0.2,400", "''"}) {
         EXPECT_EQ(run(fmt::format("--pin {}", pin)), 2) << pin;
