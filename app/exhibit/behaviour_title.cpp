@@ -9,17 +9,17 @@ namespace frustumscreen::exhibit {
 
 std::optional<PresentedTitle> BehaviourTitle::step(MonotonicTime now, const Input& input) {
     const double step = to_seconds(now - std::exchange(last_, now)) / to_seconds(Sentences::leaves);
-    const bool stays = lies_ == input.title;
+    const bool stays = placed_ == input.title;
     share_ = std::clamp(share_ + (stays ? step : -step), 0.0, 1.0);
     // Another artifact fades in with its own light, so the old title need not fade out.
-    const bool other_artifact = lies_ && input.title && lies_->artifact != input.title->artifact;
+    const bool other_artifact = placed_ && input.title && placed_->artifact != input.title->artifact;
     if (!stays && (share_ <= 0.0 || placer_.at(now).opacity <= 0.0 || other_artifact)) {
-        lies_ = input.title;
+        placed_ = input.title;
         share_ = 1.0; // the placer fades it in
-        placer_.set_shapes(lies_ ? std::span(&input.size_m, 1) : std::span<const glm::dvec2>());
+        placer_.set_shapes(placed_ ? std::span(&input.size_m, 1) : std::span<const glm::dvec2>());
     }
     changing_ = false;
-    if (!lies_) {
+    if (!placed_) {
         return std::nullopt;
     }
     const SentenceEnvironment& environment = input.environment;
@@ -28,9 +28,9 @@ std::optional<PresentedTitle> BehaviourTitle::step(MonotonicTime now, const Inpu
                    environment.quarter_turns);
     const typography::CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * geometry::ease(share_) * input.light;
-    changing_ = lies_ != input.title || share_ < 1.0 || (place.opacity > 0.0 && place.opacity < 1.0);
+    changing_ = placed_ != input.title || share_ < 1.0 || (place.opacity > 0.0 && place.opacity < 1.0);
     return brightness > 0.0 ? std::optional(PresentedTitle{
-                                  .title = *lies_, .rectangle = place.rectangle, .brightness = brightness})
+                                  .title = *placed_, .rectangle = place.rectangle, .brightness = brightness})
                             : std::nullopt;
 }
 

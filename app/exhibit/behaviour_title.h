@@ -1,5 +1,6 @@
 /// The line that says what the button does now: the title of the behaviour that the next press triggers, beside the
-/// prop, in the visitor's language. While a torch is held, it is the title of what the torch throws. It fades in at the best place, and fades out before another one.
+/// prop, in the visitor's language. While a torch is held, it is the title of the torch's content. A title fades in at the
+/// best place, and fades out before the next one.
 ///
 /// Frames   table T, metres.
 /// Time     `now` never goes back.
@@ -42,14 +43,14 @@ public:
     };
     [[nodiscard]] std::optional<PresentedTitle> step(MonotonicTime now, const Input& input);
     /// True if a title is or will be shown: `step` uses its surroundings.
-    [[nodiscard]] bool lies() const { return lies_.has_value(); }
+    [[nodiscard]] bool has_title() const { return placed_.has_value(); }
     /// True while its brightness changes by itself.
     [[nodiscard]] bool changing() const { return changing_; }
 
 private:
     typography::CaptionPlacer placer_;
-    std::optional<TitleIndex> lies_; ///< the one that the placer holds
-    double share_ = 0.0;             ///< of its light; falls while another is wanted
+    std::optional<TitleIndex> placed_; ///< the title that has a place in `placer_`
+    double share_ = 0.0;               ///< of its light; falls while another title is wanted
     MonotonicTime last_;
     bool changing_ = false;
 };

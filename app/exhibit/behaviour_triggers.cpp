@@ -23,7 +23,7 @@ std::optional<std::size_t> BehaviourTriggers::next(std::span<const TriggeredBeha
     return k;
 }
 
-void BehaviourTriggers::begin_anew(std::size_t artifact) {
+void BehaviourTriggers::reset(std::size_t artifact) {
     artifact_ = artifact;
     presses_ = 0;
     held_.fill(false);
@@ -31,7 +31,7 @@ void BehaviourTriggers::begin_anew(std::size_t artifact) {
     heard_ = false;
 }
 
-/// A description that is read tells from its first portion on; one that is heard, from the first sound.
+/// Narration time counts from the first portion of a description that is read, and from the first sound of one that is heard.
 void BehaviourTriggers::follow_narration(MonotonicTime now, const Input& input) {
     if (!input.tells) {
         told_since_.reset();
@@ -67,7 +67,7 @@ BehaviourEvents BehaviourTriggers::step(MonotonicTime now, const Input& input) {
     if (came || left || !input.shown) {
         result.end_all = !ended_;
         ended_ = true;
-        begin_anew(input.artifact);
+        reset(input.artifact);
     }
     silent_ = left || (silent_ && !came && input.attracts);
     follow_narration(now, input);

@@ -1,14 +1,14 @@
 /// Decides which behaviours of the artifact on show begin and end.
 ///
-/// Button      each press triggers the next of the artifact's behaviours that have this trigger, and after the last the
-///             first again; one that is still on ends instead.
+/// Button      each press triggers the artifact's next behaviour with this trigger; after the last comes the first. If
+///             that behaviour is still running, the press ends it instead.
 /// Dwell       a visitor is present, and for `dwell` has neither moved the prop nor pressed anything.
 /// Hotspot     the hotspot's label is shown.
-/// Narration   the description has been told for so long.
+/// Narration   the description has been told for `narration_s`.
 /// Arrival     the artifact has faded in.
-/// Ends        a behaviour that lasts (it repeats or stays) ends with what began it: the prop moves on, the label goes,
-///             the description is over. One that does not runs to its own end. Everything ends when the visitor has
-///             gone, another artifact comes, or the staff picture or a new set does.
+/// Ends        a behaviour that lasts (it repeats or stays) ends with its trigger: the prop moves on, the label goes, the
+///             description is over. Any other behaviour runs to its own end. All end when the visitor has gone, or when
+///             another artifact, the staff picture or a new set comes.
 ///
 /// Time     `now` never goes back.
 /// Threads  values; one caller. `step` allocates nothing.
@@ -72,9 +72,9 @@ public:
     struct Input {
         std::span<const TriggeredBehaviour> behaviours; ///< of the artifact on show
         std::size_t artifact = 0;
-        bool shown = true;     ///< an artifact is shown: no fault, no staff picture, no leaving set
+        bool shown = true;     ///< an artifact is shown: no fault, no staff picture, no change of set
         bool attracts = false; ///< no visitor is there
-        bool arrived = true;   ///< nothing of the artifact fades, and it is ready
+        bool arrived = true;   ///< the artifact is ready and has faded in
         bool pressed = false;  ///< the button
         Nanoseconds rested{0}; ///< since a visitor who is there moved the prop or pressed anything
         std::optional<std::size_t> hotspot; ///< whose label is shown
@@ -91,9 +91,9 @@ public:
     [[nodiscard]] std::size_t presses() const { return presses_; }
 
 private:
-    void begin_anew(std::size_t artifact);
+    void reset(std::size_t artifact);
     void follow_narration(MonotonicTime now, const Input& input);
-    /// True while what begins the behaviour holds; not for a button.
+    /// True while the behaviour's trigger holds; false for a button.
     [[nodiscard]] bool holds(MonotonicTime now, const Input& input,
                              const TriggeredBehaviour& behaviour) const;
 
@@ -104,7 +104,7 @@ private:
     bool ended_ = true;     ///< everything was ended, and nothing has begun since
     std::array<bool, world::max_behaviours> held_{}; ///< `holds` in the previous step
     std::optional<MonotonicTime> told_since_;
-    bool heard_ = false; ///< the description that is told, so far
+    bool heard_ = false; ///< speech of the current description has been heard
 };
 
 } // namespace frustumscreen::exhibit

@@ -20,7 +20,7 @@ const library::ImportedPack* line_with(const library::ImportReport& report, libr
     return found != report.packs.end() ? &*found : nullptr;
 }
 
-/// A stick's first report.
+/// The state after a stick's first report.
 CopyState offered_by(const library::ImportReport& report) {
     if (!is_over(report.stage)) {
         return {.stage = CopyStage::Looking};
@@ -29,7 +29,7 @@ CopyState offered_by(const library::ImportReport& report) {
     return {.stage = offers ? CopyStage::Offered : CopyStage::NoRequest};
 }
 
-/// A report after the button.
+/// The state after a report that follows the staff's confirmation.
 CopyState written_by(const library::ImportReport& report) {
     if (!is_over(report.stage)) {
         const bool copies = report.stage == library::ImportStage::Copying && report.total_bytes > 0;
@@ -44,7 +44,7 @@ CopyState written_by(const library::ImportReport& report) {
         return {.stage = CopyStage::Written, .said = written->file};
     }
     return {.stage = CopyStage::Failed,
-            .said = !report.reason.empty() ? report.reason : "the stick asks for no copy any more"};
+            .said = !report.reason.empty() ? report.reason : "the stick no longer asks for a copy"};
 }
 
 } // namespace
@@ -58,7 +58,7 @@ void CopyOffer::take(MonotonicTime now, const library::ImportReport& report, boo
         return;
     }
     CopyState next = is_old ? CopyState{} : is_confirmed ? written_by(report) : offered_by(report);
-    const bool writes = next.stage == CopyStage::Writing; // each report says that it goes on
+    const bool writes = next.stage == CopyStage::Writing; // each report shows progress
     if (writes || stick != stick_ || next != state_) {
         since_ = now;
     }
@@ -90,7 +90,7 @@ const CopyState& CopyOffer::step(MonotonicTime now) {
     case CopyStage::Writing:
         if (lasts >= patience) {
             state_ = {.stage = CopyStage::Failed,
-                      .said = "nothing more comes from the stick; put it in again, or take another one"};
+                      .said = "the stick has stopped answering; put it in again, or use another stick"};
         }
         break;
     case CopyStage::NoStick:

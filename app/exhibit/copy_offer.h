@@ -3,7 +3,7 @@
 ///     ImportReport -> CopyOffer -> CopyState, for StaffPage::Copy
 ///
 /// Offered  for `stands` after a stick was looked through that waits for the staff (library/report_request.h).
-/// Writing  from the button until the last report of that stick; reports of other sticks do not count meanwhile.
+/// Writing  from the button until the last report of that stick; reports of other sticks are ignored meanwhile.
 /// Time     `now` never goes back.
 /// Threads  a value; one caller. `step` allocates nothing while the state does not change.
 /// Errors   in the state, one sentence.
@@ -40,10 +40,10 @@ struct CopyState {
 class CopyOffer {
 public:
     static constexpr Nanoseconds stands = std::chrono::minutes(10);
-    /// Without a new report for this long nothing more comes. A slow stick takes a pack's 4 MB in some seconds.
+    /// Time-out: after this long without a new report the copy has failed. A slow stick takes some seconds for a pack of 4 MB.
     static constexpr Nanoseconds patience = std::chrono::minutes(2);
 
-    /// Call when the importer's report is another one. `is_old`: it was there before the exhibit.
+    /// Call when the importer's report changes. `is_old`: it is from before the exhibit's start.
     void take(MonotonicTime now, const library::ImportReport& report, bool is_old);
     /// The staff confirmed what is offered.
     void confirm(MonotonicTime now);

@@ -9,7 +9,7 @@
 /// Time     `now` never goes back; the rhythm of frames does not matter, but a gap of half a second restarts the
 ///          dwell.
 /// Threads  values; one caller. Allocates nothing.
-/// Errors   none: a prop that is lifted or whose pose is unknown rests nowhere.
+/// Errors   none: a prop that is lifted, or whose pose is unknown, rests on no picture.
 #pragma once
 
 #include "app/geometry/prop_shape.h"

@@ -119,7 +119,7 @@ Observed Exhibit::observe(MonotonicTime now, const tracking::TrackedState& track
     return seen;
 }
 
-/// While the prop's pose is unknown, or in staff mode, the prop rests nowhere.
+/// Dwell detection is off while the prop's pose is unknown, and in staff mode.
 void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracked_state,
                          const DrawnPose& drawn, Observed& seen) {
     if (!table_) {
@@ -148,7 +148,7 @@ void Exhibit::step_table(MonotonicTime now, const tracking::TrackedState& tracke
     }
 }
 
-/// Pictures on the table come first: a prop that is on one rests before no object.
+/// Pictures on the table take priority: a prop that is on one cannot choose an object of the room.
 void Exhibit::step_objects(MonotonicTime now, const tracking::TrackedState& tracked_state, bool pressed,
                            Observed& seen) {
     const bool free = tracked_state.prop_known && state_ != State::Attract && state_ != State::Staff &&

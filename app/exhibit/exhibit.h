@@ -14,9 +14,9 @@
 ///          program that runs the exhibit starts it, or does not.
 /// Room     with a screen behind the table, an object that the prop rests before is chosen as a picture on the table is
 ///          (object_dwell.h). The caller says which object that is (note_object).
-/// Torch    while one is held, two buttons are its: "choose" changes what it throws, and "behaviour" leaves its light on the
-///          object. Both do what they do otherwise while the prop rests on a picture or before an object.
-/// Sites    of an artifact that is a site the button "behaviour" brings a region into the prop, and the whole back (site_travel.h).
+/// Torch    while one is held, two buttons control it: "choose" changes its content, and "behaviour" leaves its light on the
+///          object. While the prop rests on a picture or before an object, both buttons keep their usual meaning.
+/// Sites    if the artifact is a site, the button "behaviour" brings a region into the prop, then the whole back (site_travel.h).
 /// Windows  a button pins what is seen through the prop onto the table (window_desk.h).
 /// Frames   table T, metres.
 /// Time     `now` never goes back. Fades are closed forms of it; a caption appears from its first step on.
@@ -74,14 +74,14 @@ public:
                                     const tracking::TrackedState& tracked_state);
     /// Sets the state of each artifact; before the first call all are ready. An empty list changes nothing.
     void note(std::span<const ArtifactState> states) { catalogue_.note(states); }
-    /// The press did something else that the exhibit does not know of: no chord undoes it.
+    /// The press had an effect outside the exhibit, so a chord must not undo it.
     void forget_press(settings::Command command) { presses_.forget(command); }
     /// Sets the triangles that hide the hotspots of the artifact on show, which need not be loaded; those of other
     /// artifacts are dropped.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles) {
         catalogue_.note_triangles(artifact, std::move(triangles));
     }
-    /// Sets the object of the room that the prop is before, as the eye sees it, for the next step; none: before none.
+    /// For the next step: the object of the room that the prop is in front of, seen from the eye; none: there is none.
     void note_object(const std::optional<RoomObject>& object) { room_object_ = object; }
     /// `speaking`: something is being spoken, so no spoken advice begins. `narration`: of the description being told.
     void hear(bool speaking, const SpeechProgress& narration = {});
@@ -109,9 +109,9 @@ public:
     [[nodiscard]] const std::string& language() const { return selection_.language(); }
     /// Sets the volume that the staff chose earlier, in place of the settings'.
     void set_louder_db(int louder_db) { staff_.set_louder_db(louder_db); }
-    /// Offers the staff the state of delivery, for which a stick has asked, or not any more.
+    /// Starts or withdraws the offer to restore the state of delivery, which a stick has requested.
     void offer_reset(bool offered) { staff_.offer_reset(offered); }
-    /// Offers the staff a copy of the kiosk onto a stick that waits for it, or not any more.
+    /// Starts or withdraws the offer to copy the kiosk onto a stick that waits for it.
     void offer_copy(bool offered) { staff_.offer_copy(offered); }
     /// Ends the staff mode early, when there is no picture to show.
     void end_staff_mode() { state_ = state_ == State::Staff ? next(state_, Event::Rest) : state_; }
@@ -175,7 +175,7 @@ private:
     [[nodiscard]] std::uint32_t lamps() const;
 
     // Torches: exhibit_torches.cpp.
-    /// Takes the presses that are a held torch's.
+    /// Handles the presses that control a held torch.
     void take_torch_presses();
     /// Uses the artifact's brightness, and dims it.
     void throw_light(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
@@ -183,15 +183,15 @@ private:
     /// The advice to a visitor whose torch lights nothing; none: no advice.
     [[nodiscard]] std::optional<WordIndex> torch_word() const;
     [[nodiscard]] std::uint32_t torch_lamps() const;
-    /// The picture of the title of what a held torch throws, among those of behaviours; none: it has none.
+    /// The title of the held torch's content, as an index among the titles of behaviours; none: it has no title.
     [[nodiscard]] std::optional<TitleIndex> content_title(const CatalogueEntry& entry, std::size_t artifact,
                                                           std::size_t language, glm::dvec2& size_m) const;
 
     // Sites: exhibit_sites.cpp.
-    /// Takes the press of the button, which is the site's.
+    /// Handles the press of the button that controls the site.
     void travel(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                 const DrawnPose& drawn, Presentation& presentation);
-    /// Beside everything else on the table, while the prop shows a part of a site.
+    /// Places the site's map beside everything else on the table, while the prop shows a part of the site.
     void place_map(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                    const DrawnPose& drawn, Presentation& presentation);
     [[nodiscard]] SiteTravel::Ray pointer(const tracking::TrackedState& tracked_state, const DrawnPose& drawn,
@@ -204,7 +204,7 @@ private:
     [[nodiscard]] Obstacles lying_on_table() const;
     /// Places the titles of states in the visitor's language.
     void place_titles(std::string_view language, PresentedWindows& windows) const;
-    /// The lines that say, once in a visit each, what the button does and what happens while it is held; none: nothing.
+    /// The hint about a press or a hold of the button for windows, each once per visit; none: no hint is due.
     [[nodiscard]] std::optional<WordIndex> window_word() const;
 
     // Behaviours: exhibit_behaves.cpp.
@@ -234,7 +234,7 @@ private:
     // The presentation.
     Placeholder placeholder_;
     std::optional<TableBrowser> table_;
-    std::optional<RoomObject> room_object_; ///< that the prop is before, in the next step
+    std::optional<RoomObject> room_object_; ///< that the prop is in front of, in the next step
     ObjectDwell object_dwell_;
     ArtifactCaption caption_;
     HotspotLabels labels_;

@@ -54,7 +54,7 @@ std::optional<PresentedTitle> Exhibit::title(MonotonicTime now, const tracking::
     input.obstacles = obstacles.all();
     const double advised = presentation.advice ? presentation.advice->brightness : 0.0;
     input.light = shown.caption_brightness * drawn.brightness * std::max(0.0, 1.0 - 2.0 * advised);
-    if (input.title || title_.lies()) {
+    if (input.title || title_.has_title()) {
         input.environment = environment_of(place_, drawn, tracked_state.eye_m, side_.quarter_turns());
     }
     return title_.step(now, input);

@@ -4,7 +4,7 @@
 
 namespace frustumscreen::exhibit {
 
-/// The light of the torch in the hand points; without one the eye looks at the prop's middle.
+/// The pointing ray: the held torch's beam; without a torch, the eye's ray to the prop's middle.
 SiteTravel::Ray Exhibit::pointer(const tracking::TrackedState& tracked_state, const DrawnPose& drawn,
                                  const Presentation& presentation) const {
     const geometry::RigidTransform prop_from_table = drawn.table_from_prop.inverse();
@@ -52,7 +52,7 @@ void Exhibit::place_map(MonotonicTime now, const tracking::TrackedState& tracked
         obstacles.add(presentation.advice->rectangle);
     }
     input.obstacles = obstacles.all();
-    if (input.title || map_.lies()) {
+    if (input.title || map_.has_title()) {
         input.environment = environment_of(place_, drawn, tracked_state.eye_m, side_.quarter_turns());
     }
     presentation.site_map = map_.step(now, input);

@@ -11,8 +11,8 @@ namespace {
 
 enum Shown : std::size_t { Prop, Turning };
 
-/// A square foot and the same one turned by an eighth make an octagon, which all other turns leave by 8 per cent of the
-/// foot's radius at most; captions keep farther away.
+/// A square foot and the same foot turned by 45 degrees make an octagon. At any other yaw the foot exceeds the octagon by
+/// at most 8 per cent of its radius; captions keep a larger distance.
 typography::TablePolygon hidden_at_two_turns(const geometry::PropShape& prop, const glm::dvec3& place_m,
                                              const glm::dvec3& from_m) {
     constexpr double eighth = 0.25 * std::numbers::pi;
@@ -27,9 +27,8 @@ typography::TablePolygon hidden_at_two_turns(const geometry::PropShape& prop, co
     return all;
 }
 
-/// Each corner runs on a circle about the vertical axis, and the point sees this circle as a circle on the table. The
-/// polygon has a side along the farthest of these circles in each of `sides` directions; it is at most 1 per cent
-/// wider than they are.
+/// Each corner describes a circle about the vertical axis, and the circle's shadow on the table is a circle too. In each
+/// of `sides` directions the polygon touches the farthest of these shadows; it exceeds them by at most 1 per cent.
 typography::TablePolygon hidden_at_all_turns(const geometry::PropShape& prop, const glm::dvec3& place_m,
                                              const glm::dvec3& from_m) {
     constexpr std::size_t sides = 24;

@@ -28,7 +28,8 @@ Told NarrationSequencer::step(MonotonicTime now, const NarrationInput& input) {
     }
     give_way(now, input);
     take_presses(now, input);
-    if (state_ == State::Description && since_ < now) { // in its first step, speech is still the earlier one
+    if (state_ == State::Description &&
+        since_ < now) { // in the first step the report is about the speech before
         follow_speech(now, input);
     }
     follow_rest(now, input);
@@ -44,7 +45,7 @@ Told NarrationSequencer::step(MonotonicTime now, const NarrationInput& input) {
     return told;
 }
 
-/// Ends what was told of another subject, and forgets what was told when the visitor has been away for a while.
+/// Ends the narration of a former subject. After a long absence of the visitor, forgets what was told.
 void NarrationSequencer::follow_subject(MonotonicTime now, const NarrationInput& input) {
     const bool other = input.subject != subject_;
     if (other || input.stops || input.tellable == nullptr) {
@@ -100,7 +101,7 @@ void NarrationSequencer::take_presses(MonotonicTime now, const NarrationInput& i
     next_waits_ = describe_waits_ = false;
 }
 
-/// The thing that a press leads to; the number of all things means nothing.
+/// The index of the thing that a press leads to; past the last: nothing more is told.
 std::size_t NarrationSequencer::next_thing(const Tellable& tellable) const {
     switch (state_) {
     case State::Nothing:

@@ -64,8 +64,8 @@ struct NarrationInput {
     Nanoseconds rested{0};              ///< time since anything was moved or pressed
     bool next = false;                  ///< pressed: the next thing
     bool describe = false;              ///< pressed: the description
-    bool gives_way = false;             ///< something else must be said or shown
-    bool stops = false;                 ///< as `gives_way`, and at once
+    bool gives_way = false;             ///< end at the next pause of the speech
+    bool stops = false;                 ///< end at once
     SpeechProgress narration;           ///< as the previous step has led to
 };
 
@@ -73,7 +73,7 @@ struct Told {
     std::optional<std::size_t> portion; ///< portion of the description to show
     std::optional<std::size_t> hotspot; ///< to point out
     bool speaks = false;                ///< the description is to be heard
-    bool leaves = false;                ///< speech goes on to its next pause; otherwise it ends at once
+    bool leaves = false;                ///< true: speech ends at its next pause; false: at once
     [[nodiscard]] bool operator==(const Told&) const = default;
 };
 
@@ -87,11 +87,11 @@ public:
     static constexpr Nanoseconds finds_text = std::chrono::milliseconds(1500);
     /// A label is a few words, but its place on the artifact must be found.
     static constexpr Nanoseconds min_hotspot = std::chrono::seconds(5);
-    /// A visitor who moves the prop without resting has seen a label by then.
+    /// Longest time of a label while the visitor moves the prop without resting.
     static constexpr Nanoseconds longest_hotspot = std::chrono::seconds(20);
-    /// Speech that has not begun by then does not come; the description is read.
+    /// Time-out for speech to begin; after it the description is shown as text to read.
     static constexpr Nanoseconds longest_coming = std::chrono::seconds(1);
-    /// A sentence's next pause comes sooner; a recording without pauses is cut off.
+    /// Time-out for the next pause of speech; a recording without pauses is cut off.
     static constexpr Nanoseconds longest_leaving = std::chrono::seconds(3);
     /// For a description that is heard: a recording lasts at most three minutes.
     static constexpr Nanoseconds longest_description = std::chrono::minutes(4);
@@ -117,7 +117,7 @@ private:
     State state_ = State::Nothing;
     MonotonicTime since_;      ///< of the state
     MonotonicTime rests_from_; ///< rest before this does not count
-    /// The thing that rest leads to: 0 is the description, or the first hotspot if there is none.
+    /// The next thing that rest leads to: 0 is the description, or the first hotspot if there is none.
     std::size_t leads_to_ = 0;
     std::optional<MonotonicTime> nobody_since_;
     bool next_waits_ = false; ///< a press that waits until the artifact is there

@@ -60,16 +60,16 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
                                                  const NoticeEnvironment& environment) {
     const double step = to_seconds(now - last_) / to_seconds(leaves);
     last_ = now;
-    const bool stays = lies_ == wanted;
+    const bool stays = placed_ == wanted;
     share_ = std::clamp(share_ + (stays ? step : -step), 0.0, 1.0);
     if (!stays && (share_ <= 0.0 || placer_.at(now).opacity <= 0.0)) {
-        lies_ = wanted;
+        placed_ = wanted;
         share_ = 1.0; // the placer fades it in
         beside_ = Beside::All;
         placer_.set_shapes(wanted ? std::span<const glm::dvec2>(wanted->sizes_m)
                                   : std::span<const glm::dvec2>());
     }
-    if (!lies_) {
+    if (!placed_) {
         return std::nullopt;
     }
     look(now, environment);
@@ -80,7 +80,7 @@ std::optional<PresentedNotice> NoticePlace::step(MonotonicTime now, const Shared
                                                          : Beside::All;
     }
     const double brightness = place.opacity * geometry::ease(share_);
-    return brightness > 0.0 ? std::optional(PresentedNotice{.picture = lies_,
+    return brightness > 0.0 ? std::optional(PresentedNotice{.picture = placed_,
                                                             .shape = place.shape,
                                                             .rectangle = place.rectangle,
                                                             .brightness = brightness,

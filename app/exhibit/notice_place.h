@@ -65,7 +65,7 @@ private:
     void look(MonotonicTime now, const NoticeEnvironment& environment);
 
     typography::CaptionPlacer placer_;
-    SharedNotice lies_; ///< the one that the placer holds
+    SharedNotice placed_; ///< the notice that has a place in `placer_`
     /// Things that the notice must not overlap. If there is no space, the next value is tried.
     enum class Beside : std::uint8_t { All, AllButEmptyPlaces, AllButCaption };
     Beside beside_ = Beside::All;

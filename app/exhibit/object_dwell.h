@@ -1,10 +1,10 @@
-/// Chooses an artifact by its object in the room behind the screen: the prop rests before the object, as the eye sees it.
+/// Chooses an artifact by its object in the room behind the screen: the prop rests in front of the object, seen from the eye.
 ///
 /// The dwell goes on while the prop stays before one object and close to where it was when the dwell began. When it moves on,
 /// or something is pressed, nothing is chosen. After a choice, and after a press, the prop must leave that object first.
 ///
 /// Frames   table T, metres.
-/// Time     `now` never goes back; the rhythm of frames does not matter, but a gap of half a second begins anew.
+/// Time     `now` never goes back; the rhythm of frames does not matter, but a gap of half a second restarts the dwell.
 /// Threads  values; one caller. Allocates nothing.
 /// Errors   none.
 #pragma once
@@ -31,11 +31,12 @@ public:
     static constexpr Nanoseconds settles = std::chrono::milliseconds(300); ///< before the object shows it
     static constexpr Nanoseconds lasts = std::chrono::milliseconds(1500);
     static constexpr Nanoseconds longest_gap = std::chrono::milliseconds(500);
-    static constexpr double resting_m = 0.05; ///< a hand holds the prop; from where it was at the beginning
+    static constexpr double resting_m =
+        0.05; ///< larger than on a picture, because a hand holds the prop; from its first place
 
     struct Input {
         std::optional<RoomObject>
-            object;              ///< that the prop is before; none: it is before none, or rests elsewhere
+            object; ///< that the prop is in front of; none: it is in front of none, or rests elsewhere
         glm::dvec3 prop_m{0.0};  ///< its middle
         std::size_t in_prop = 0; ///< this artifact is chosen already
         bool choose = false;     ///< pressed: chooses the object that shows it

@@ -19,7 +19,7 @@ bool head_has_moved(const tracking::TrackedState& now, const tracking::TrackedSt
     return now.eye_known() && (!then.eye_known() || glm::distance(now.eye_m, then.eye_m) > nodded_m);
 }
 
-/// A torch that lies or is fixed is nobody's.
+/// A torch that lies still or is fixed does not show that a visitor is present.
 bool torch_has_moved(const tracking::TrackedState& now, const tracking::TrackedState& then) {
     constexpr double waved_m = 0.03, waved_rad = 0.1;
     for (std::size_t k = 0; k < now.torches.size(); ++k) {

@@ -64,13 +64,13 @@ struct Presentation {
     std::string_view language;        ///< the caption's, shown or not; valid as long as the exhibit
     std::string_view wanted_language; ///< the chosen one, to load texts ahead; valid as long as the exhibit
     std::optional<PresentedCaption> caption;
-    std::optional<PlacedSign> sign;           ///< advice as a picture
-    std::optional<PresentedAdvice> advice;    ///< advice in words; an invitation; why nothing is shown
-    std::optional<WordIndex> says;            ///< sentence whose speech begins in this step
-    bool falls_silent = false;                ///< the sentence being spoken does not apply any more
-    std::optional<WordIndex> prepares_word;   ///< sentence that may be spoken next; none while the set leaves
-    std::optional<DescriptionIndex> tells;    ///< description to be heard, from its beginning
-    bool leaves = false;                      ///< the description before ends at its next pause, else at once
+    std::optional<PlacedSign> sign;         ///< advice as a picture
+    std::optional<PresentedAdvice> advice;  ///< advice in words; an invitation; why nothing is shown
+    std::optional<WordIndex> says;          ///< sentence whose speech begins in this step
+    bool falls_silent = false;              ///< the sentence being spoken does not apply any more
+    std::optional<WordIndex> prepares_word; ///< sentence that may be spoken next; none while the set leaves
+    std::optional<DescriptionIndex> tells;  ///< description to be heard, from its beginning
+    bool leaves = false; ///< true: the former description ends at its next pause; false: at once
     std::optional<DescriptionIndex> prepares; ///< description that may be heard next
     std::optional<std::size_t> tells_of;      ///< the hotspot pointed out, visible or not
     std::optional<PresentedHotspot> hotspot;  ///< the hotspot's label
@@ -79,8 +79,8 @@ struct Presentation {
     PresentedTorches torches;                 ///< what torches throw onto the artifact
     PresentedWindows windows;                 ///< that lie on the table
     PresentedSite site;                       ///< which part of a site the prop shows
-    std::optional<PresentedTitle> site_map;   ///< the place of a map that shows which
-    std::optional<RoomObject> before;         ///< the object of the room that the prop has settled before
+    std::optional<PresentedTitle> site_map;   ///< the place of the site's map
+    std::optional<RoomObject> before;         ///< the object of the room that the prop rests in front of
     const PresentedTable* table = nullptr;    ///< pictures to choose from; valid until the next step
     std::string_view table_language;          ///< of the table's titles; valid as long as the exhibit
     double set_share = 1.0;                   ///< of the table's pictures: 0..1, a factor on linear light

@@ -18,7 +18,7 @@ class ResetOffer {
 public:
     static constexpr Nanoseconds stands = std::chrono::minutes(10);
 
-    /// Call when the importer's report is another one. `is_old`: it was there before the exhibit.
+    /// Call when the importer's report changes. `is_old`: it is from before the exhibit's start.
     void take(MonotonicTime now, const library::ImportReport& report, bool is_old) {
         const bool asks =
             !is_old && std::any_of(report.packs.begin(), report.packs.end(), library::offers_reset);

@@ -30,31 +30,31 @@ std::optional<WordIndex> Sentences::find(std::string_view key, std::string_view 
 bool Sentences::shows(MonotonicTime now, const WordIndex& word) const {
     const typography::CaptionPlace place = placer_.at(now);
     const bool has_space = place.rectangle.size_m.x > 0.0;
-    return lies_ == word && has_space && (place.opacity > 0.0 || now - appears_ < leaves);
+    return placed_ == word && has_space && (place.opacity > 0.0 || now - appears_ < leaves);
 }
 
 std::optional<PresentedAdvice> Sentences::place(MonotonicTime now, const std::optional<WordIndex>& wanted,
                                                 const SentenceEnvironment& environment) {
     const double step = to_seconds(now - last_) / to_seconds(leaves);
     last_ = now;
-    const bool stays = lies_ == wanted;
+    const bool stays = placed_ == wanted;
     share_ = std::clamp(share_ + (stays ? step : -step), 0.0, 1.0);
     if (!stays && (share_ <= 0.0 || placer_.at(now).opacity <= 0.0)) {
-        lies_ = wanted;
+        placed_ = wanted;
         share_ = 1.0; // the placer fades it in
         appears_ = now;
         placer_.set_shapes(
             wanted ? std::span<const glm::dvec2>(words_[wanted->language].texts[wanted->text].sizes_m)
                    : std::span<const glm::dvec2>());
     }
-    if (!lies_) {
+    if (!placed_) {
         return std::nullopt;
     }
     placer_.update(now, environment.around, environment.hidden, environment.prop_m,
                    environment.quarter_turns);
     const typography::CaptionPlace place = placer_.at(now);
     const double brightness = place.opacity * geometry::ease(share_);
-    return brightness > 0.0 ? std::optional(PresentedAdvice{.word = *lies_,
+    return brightness > 0.0 ? std::optional(PresentedAdvice{.word = *placed_,
                                                             .shape = place.shape,
                                                             .rectangle = place.rectangle,
                                                             .brightness = brightness})

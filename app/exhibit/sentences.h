@@ -68,14 +68,14 @@ public:
     /// True if its words are visible or fade in, so that it may be spoken.
     [[nodiscard]] bool shows(MonotonicTime now, const WordIndex& word) const;
     /// True if a sentence is or will be shown: `place` uses its surroundings.
-    [[nodiscard]] bool busy() const { return lies_.has_value(); }
+    [[nodiscard]] bool busy() const { return placed_.has_value(); }
 
 private:
     std::vector<AdviceLanguage> words_;
     std::vector<std::string> languages_;
     typography::CaptionPlacer placer_;
-    std::optional<WordIndex> lies_; ///< the one that the placer holds
-    double share_ = 0.0;            ///< of its light; falls while another is wanted
+    std::optional<WordIndex> placed_; ///< the sentence that has a place in `placer_`
+    double share_ = 0.0;              ///< of its light; falls while another sentence is wanted
     MonotonicTime last_;
     MonotonicTime appears_; ///< when the placer received it
 };

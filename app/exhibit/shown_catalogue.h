@@ -27,7 +27,7 @@ public:
     void note(std::span<const ArtifactState> states);
     /// Sets the triangles that hide the artifact's hotspots; those of other artifacts are dropped.
     void note_triangles(std::size_t artifact, ArtifactTriangles triangles);
-    /// Returns an artifact that is offered now and was not before, or the reverse, and notes that; nothing: no more.
+    /// Returns the next artifact whose availability has changed since it was last reported; none: there are no more.
     struct Offer {
         std::size_t artifact = 0;
         bool offered = true;

@@ -1,11 +1,11 @@
 /// Takes visitors into a part of a site and back: which region is marked on the miniature, and what the prop shows meanwhile.
 ///
-/// Marked   the region that the light of a held torch falls on; without a torch the one that lies behind the prop's middle for the eye.
-///          Another one is marked when it has been so for `dwell`.
+/// Marked   the region that a held torch's light falls on; without a torch, the region behind the prop's middle, seen from the eye.
+///          The mark moves to another region after `dwell` there (debounce).
 /// Way      a press goes to the marked region, another one back to the miniature. For `fades` nothing moves, while the picture fades from
 ///          the whole to its regions. Then the view goes from one to the other within `seconds_per_octave` for each doubling
 ///          of the size; a press on the way turns back from there. No place of the site jumps.
-/// Ends     without a visitor the view goes back; with another artifact, or where none is shown, it is the miniature's at once.
+/// Ends     when the visitor has gone, the view moves back to the miniature; when the artifact changes or is hidden, it jumps back.
 ///
 /// Frames   prop P, metres; box: site_view.h.
 /// Time     `now` never goes back.
@@ -94,7 +94,7 @@ private:
     std::optional<std::size_t> marked_, coming_; ///< `coming_`: pointed at since `coming_since_`
     MonotonicTime coming_since_;
     std::size_t region_ = 0;
-    std::optional<MonotonicTime> began_; ///< since when the view may be another; none: it is the miniature's
+    std::optional<MonotonicTime> began_; ///< when the view left the miniature; none: it shows the miniature
     MonotonicTime turned_;               ///< when `from_` held
     double from_ = 0.0;                  ///< share of the way when it last turned
     bool into_ = false;

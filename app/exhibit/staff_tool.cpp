@@ -87,7 +87,7 @@ void StaffTool::hold(bool first, MonotonicTime now) {
     } else if (first && view_.page == StaffPage::Status && view_.resets) {
         reset_ = true;
     } else if (first && view_.page == StaffPage::Copy && view_.copies) {
-        copy_ = view_.kept = true; // until it is told what became of it
+        copy_ = view_.kept = true; // until the result is known
     } else {
         view_.kept = true;
     }

@@ -78,11 +78,11 @@ public:
     [[nodiscard]] bool is_over(MonotonicTime now) const;
     /// True if the staff asked to measure the table since `begin` or the last call.
     [[nodiscard]] bool take_measure();
-    /// A signed request is there, or is over.
+    /// Begins or ends the offer of the state of delivery.
     void offer_reset(bool offered) { view_.resets = offered; }
     /// True if the staff confirmed it since `begin` or the last call.
     [[nodiscard]] bool take_reset();
-    /// A stick waits for a copy of the kiosk, or does not any more.
+    /// Begins or ends the offer of a copy of the kiosk.
     void offer_copy(bool offered) { view_.copies = offered; }
     /// True if the staff confirmed it since `begin` or the last call.
     [[nodiscard]] bool take_copy();

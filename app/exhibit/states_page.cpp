@@ -55,30 +55,32 @@ constexpr std::string_view layout = "  rankdir=TB; nodesep=1.0; ranksep=0.9; bgc
 std::string states_page() {
     std::string page =
         "# States\n\n"
-        "What the exhibit is doing, as one table; `app/exhibit/states.h` has it, and the exhibit runs by "
-        "it. Rest alone leads from\n"
-        "every state to attract. The status file and the staff's picture name the state; while the exhibit "
-        "sleeps by its timetable\n"
-        "(docs/technicians.md) the status file says `asleep` in its place, and these states go on behind the "
-        "dark.\n"
+        "The exhibit is a state machine: the table in `app/exhibit/states.h` has its states, events and "
+        "transitions. The event rest\n"
+        "leads from every state to attract. The status file and the staff's picture name the state. While "
+        "the exhibit sleeps by its\n"
+        "timetable (docs/technicians.md), the status file says `asleep` instead, and the state machine runs "
+        "on in the dark.\n"
         "`frustumscreen states` writes this page, `frustumscreen states --dot` the diagram's source for "
         "Graphviz.\n\n"
         "![The states and the events that lead from one to the other](states.svg)\n\n"
-        "In the diagram rest is grey. A chord leads to staff from every other state, and nothing to show "
-        "to fault from every state\n"
-        "but staff; both are drawn from attract alone.\n\n"
+        "In the diagram rest is grey. A chord leads to staff from every other state. Nothing to show leads "
+        "to "
+        "fault from every state\n"
+        "but staff. Both are drawn from attract only.\n\n"
         "| state | what is shown and said |\n|---|---|\n";
     auto out = std::back_inserter(page);
     for (const StateNote& state : state_notes) {
         fmt::format_to(out, "| {} | {} |\n", state.name, state.shows);
     }
-    page += "\nMost events say what is the case, and count in every step in which it is. Within a step they "
-            "count in this "
-            "order:\n\n| event | when |\n|---|---|\n";
+    page +=
+        "\nMost events are conditions: each is raised in every step in which it holds. Within a step events "
+        "are raised in this "
+        "order:\n\n| event | when |\n|---|---|\n";
     for (const EventNote& event : event_notes) {
         fmt::format_to(out, "| {} | {} |\n", event.name, event.when);
     }
-    page += "\nWhere the state leads; an empty place: it stays as it is.\n\n|";
+    page += "\nThe state after each event; an empty cell: the state stays.\n\n|";
     for (const StateNote& state : state_notes) {
         fmt::format_to(out, " | {}", state.name);
     }

@@ -32,7 +32,7 @@ enum class TorchAim : std::uint8_t {
 [[nodiscard]] TorchAim aim_of(const torch::Beam& beam, const geometry::RigidTransform& table_from_torch,
                               const LitObject& object);
 
-/// When a visitor whose torch lights nothing is told so: after it has not met the object for `dwell`, until it does.
+/// When to tell a visitor that the torch lights nothing: from `dwell` after its beam left the object until it meets it again.
 class TorchAdvice {
 public:
     static constexpr Nanoseconds dwell = std::chrono::seconds(4);

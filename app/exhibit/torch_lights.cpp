@@ -77,7 +77,7 @@ PresentedLight TorchLights::light_of(MonotonicTime now, const Input& input, std:
             .colour = number};
 }
 
-/// In the place of the oldest, if there are as many as may be.
+/// Replaces the oldest light if the limit is reached.
 void TorchLights::leave(MonotonicTime now, const Input& input, const PresentedLight& light) {
     const auto is_older = [](const std::optional<LeftLight>& a, const std::optional<LeftLight>& b) {
         return a && b ? a->number < b->number : !a && b;

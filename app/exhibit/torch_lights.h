@@ -5,7 +5,7 @@
 ///           is that of the torch that was taken last. Another artifact begins with its first content.
 /// Left      a torch's light that a visitor left on the object stays there, in the prop's frame, while the prop is turned
 ///           and the torch goes elsewhere: the next visitor sees what was pointed at. At most two; a third takes the place
-///           of the oldest. They go when nobody is there any more, or with the artifact.
+///           of the oldest. All end when the visitor has gone or the artifact changes.
 /// Colour    two torches are told apart by the colour of plain light and effects; pictures and layers keep theirs.
 /// Frames    table T.
 /// Time      `now` never goes back.
@@ -40,7 +40,7 @@ struct PresentedLight {
     double opening_rad = 0.0;           ///< of the torch
     double brightness = 0.0;            ///< above 0, up to 1
     std::size_t colour = 0;             ///< index into torch_colours
-    bool left = false;                  ///< no torch is there any more
+    bool left = false;                  ///< a visitor left it on the object
 };
 /// The colours of plain light and effects: the tracker's torch, and the lamp that a camera sees.
 inline constexpr std::array<glm::vec3, tracking::max_tracked_torches> torch_colours{
@@ -80,11 +80,11 @@ public:
     };
     [[nodiscard]] PresentedTorches step(MonotonicTime now, const Input& input);
 
-    /// A torch is in a hand: the buttons are its. As of the latest step.
+    /// True if a torch is in a hand, so that it has two buttons, as of the latest step.
     [[nodiscard]] bool held() const { return held_.has_value(); }
     /// The content that the torch in the hand throws, or will in a moment; none: plain light, or none is held.
     [[nodiscard]] std::optional<std::size_t> content() const;
-    /// The torch in the hand: where its light goes; none: none is held.
+    /// Where the light of the torch in the hand goes; none: no torch is held.
     [[nodiscard]] const std::optional<TorchAim>& aim() const { return aim_; }
 
 private:
@@ -115,7 +115,7 @@ private:
     TorchPlace place_;
     std::array<Torch, tracking::max_tracked_torches> torches_;
     std::array<std::optional<LeftLight>, max_left> left_{};
-    std::size_t lefts_ = 0; ///< so far
+    std::size_t lefts_ = 0; ///< lights left so far
     std::optional<std::size_t> artifact_;
     std::size_t contents_ = 0;
     std::optional<std::size_t> held_; ///< the torch that was taken last

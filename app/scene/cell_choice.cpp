@@ -46,7 +46,7 @@ CellOption CellChoice::sum(const std::vector<std::size_t>& choice,
 }
 
 void CellChoice::solve(std::span<const CellOption> options, double budget_us) {
-    // From an option on the hull, the steepest way to a more exact one leads to the hull's next corner.
+    // From a corner of the hull, the steepest step to a more exact option leads to the hull's next corner.
     const auto next = [&](std::size_t cell) {
         const std::span<const CellOption> own = of(cell, options);
         const CellOption& from = own[wanted_[cell]];

@@ -4,8 +4,8 @@
 ///          Where the gains differ, such pixels would sparkle as the prop moves. The face with the larger
 ///          gain is therefore dimmed towards the other's gain over the last pixel before the edge: at the
 ///          edge both agree, and a pixel's light changes gradually when the edge crosses it. The dimmer gain
-///          wins, because a place that is too bright is more noticeable than one that is too dark. So it is towards a
-///          face that shows nothing: half of such a pixel's light falls on it, and there it is as bright.
+///          wins, because a place that is too bright is more noticeable than one that is too dark. The same holds
+///          beside a face that shows nothing, because half of such a pixel's light falls on that face.
 /// Outer    at an edge of the prop's outline, as the projector sees it, half of a pixel's light would fall on
 ///          the table as a bright line. There the face goes dark half a pixel before the edge.
 ///

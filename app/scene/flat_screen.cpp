@@ -26,8 +26,8 @@ FlatScreen flat_screen(const std::array<glm::dvec3, 4>& corners_m, int width, in
     screen.surface.corners.assign(face.corners.begin(), face.corners.end());
     screen.surface.middle = middle;
 
-    // Any maps the panel exactly. From nearer than every eye, an object deep in the room does not count as shown by fewer
-    // pixels than the panel has (pixel_density.h), so its samples stay those that were asked for.
+    // Any distance maps the panel exactly. From nearer than every eye, an object deep in the room does not count as shown by fewer
+    // pixels than the panel has (pixel_density.h), so it keeps the requested samples.
     const double distance = 0.01 * (glm::length(across) + glm::length(along));
     screen.pinhole = {.width = width,
                       .height = height,

@@ -1,7 +1,7 @@
 /// A flat screen as an output: the surface that it lights is the panel itself.
 ///
 /// The surface has one face, the lit area. The pinhole looks straight at it from the front, and its picture is the lit area:
-/// it maps each point of the panel to the pixel that lights it. So what draws a projector's picture on a prop draws a
+/// it maps each point of the panel to the pixel that lights it. So the code that draws a projector's picture on a prop draws a
 /// screen's picture too, without light compensation: a panel is equally bright everywhere.
 ///
 /// Frames   table T; metres. The surface's face looks towards the people before the screen.

@@ -35,7 +35,7 @@ int samples_on_gpu(std::span<const Part> parts) {
     return drawn != parts.end() ? drawn->level.samples : (parts.empty() ? 0 : 1);
 }
 
-/// The least of the references for each eye: with different ones the eyes would see different brightness.
+/// The least reference of all eyes: with different references the eyes would see different brightness.
 double dimmed_light(const SharedByParts& shared, const LightCompensation& compensation) {
     const std::size_t faces = std::min(shared.prop.faces.size(), geometry::max_faces);
     std::array<SeenFace, geometry::max_faces> seen{};

@@ -148,7 +148,7 @@ std::optional<std::size_t> Governor::doubted() const {
 void Governor::change_to(std::size_t quality_level, MonotonicTime now) {
     const bool relief = !fits(current_);
     if (relief && entered_for_quality_) {
-        // A level that was entered for quality and did not last is tried again after an ever longer time.
+        // Exponential backoff: a level that was entered for quality and proved too slow.
         const bool lasted = now - changed_ >= 4 * patience_;
         patience_ = lasted ? min_patience : std::min(2 * patience_, max_patience);
     }

@@ -16,13 +16,13 @@
 ///          on six scans (RMSE in codes against the finest level at 16 samples, llvmpipe): past the tolerance
 ///          a coarser level cost 2 to 200 codes for each millisecond saved, half the samples 4 to 14: about
 ///          equal at best, and far cheaper where a level thins a blade or loses a part.
-/// Steady   a level is left for a quicker one when it takes more than 90 % of the deadline, and entered for
+/// Steady   hysteresis: a level is left when it takes more than 90 % of the deadline, and entered for
 ///          quality when it takes less than 70 %. A level that proves too slow soon after it was entered is
 ///          tried again after twice the time. Nothing changes within `dwell` of a change. So there is at most
 ///          one change per `dwell`, and a level that never fits is tried O(log t) times.
-/// Doubt    the times at the start may be wrong: the current level misses the deadline and counts as the
-///          quickest, while another has neither more triangles nor more samples. Such levels are tried, least
-///          work first, after a patience that doubles with each failed try. So the slowest level is not kept
+/// Doubt    the times at the start may be wrong: the current level counts as the quickest, and misses the
+///          deadline. Levels with no more triangles and no more samples are then tried, least work first,
+///          with exponential backoff: the wait doubles with each failed try. So a slow level is not kept
 ///          forever.
 /// Source   Kim 2008, Eq. (1): the importance I = u P + v / |PA - PO| + w cos + x S of an object decides
 ///          whether it is drawn in images or in polygons. Here one object has many levels: u = 1, and P,

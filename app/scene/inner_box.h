@@ -1,4 +1,4 @@
-/// A box inside the solid that a closed mesh bounds: what certainly hides what is behind it.
+/// A box inside the solid that a closed mesh bounds: an occluder for everything behind it.
 ///
 /// Closed   each edge is shared by triangles that run along it in opposite directions; otherwise there is no box. The solid is
 ///          where the surface winds around a point, seen from outside counter-clockwise.

@@ -1,10 +1,10 @@
-/// The expected time of a frame that shows an artifact whole or in cells, before anything of it was drawn: what a bake
-/// decides by whether cells pay.
+/// The expected time of a frame that shows an artifact whole or in cells, before anything of it was drawn. A bake decides by it
+/// whether cells pay.
 ///
 /// Model    a time for the picture of meshes, which the GPU draws, and one for that of reliefs, which this program rasterizes;
 ///          more for each triangle or block of the quickest way to draw each part that is good enough (within_tolerance), and
-///          for each part beyond the first. A frame with meshes and reliefs pays for both pictures: parts of one kind are
-///          quicker together unless they save that.
+///          for each part beyond the first. A frame with both kinds pays for both pictures: it is chosen only if it saves
+///          more than that.
 /// Units    times of the floor (docs/conventions.md) in the near set-up, so that the processor does not matter.
 /// Source   of the constants: of the chess board's levels and reliefs in docs/measurements.md (near), and the share of the
 ///          picture in the time of its levels by `frustumscreen-bench cells`; two cores, llvmpipe.

@@ -100,7 +100,7 @@ Draw draw_level(const Part& part, const glm::dmat4& clip_from_placed, const glm:
     return draw;
 }
 
-/// The pixels of a relief on a face. One that is alone takes all that shows the box: its own.
+/// The pixels of a relief on a face. If it is the only part, these are all pixels that show the box.
 PixelRectangle bounds_of_relief(const relief::RasterView& view, std::size_t face, const FaceView& through,
                                 const SharedByParts& shared) {
     if (shared.one_part) {

@@ -37,8 +37,8 @@ struct SharedByParts {
 /// Points are planned as a relief that the processor draws.
 [[nodiscard]] bool takes_relief_draw(const PlacedLevel& level);
 
-/// Part by part, because the triangles that face the eye are found once for all faces that share the eye. Returns the
-/// faces, as bits, through which an eye looks at a part, whether or not they show some of it.
+/// Plans part by part, because the triangles that face the eye are found once for all faces that share the eye. Returns
+/// the faces, as bits, through which an eye looks at a part, whether or not they show some of it.
 [[nodiscard]] std::uint32_t plan_parts(std::span<const Part> parts, const SharedByParts& shared,
                                        FramePlan& plan);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kept_cost = 1.34;     ///< of the quickest that is enough
 constexpr double entered_budget = 0.9; ///< share of the budget that new choices may take
-constexpr double wasted_budget = 0.75; ///< choices that take less than this are made anew
+constexpr double wasted_budget = 0.75; ///< choices that use a smaller share are made again
 
 std::span<const RoomOption> of_object(const RoomSeen& seen, std::span<const RoomOption> options) {
     return options.subspan(seen.first, seen.count);

@@ -1,11 +1,11 @@
-/// Chooses how each object of a room is drawn: the quickest way that is good enough from where the eye is, and where the
-/// frame's time does not suffice, for some a quicker one that errs more.
+/// Chooses how each object of a room is drawn: in the quickest way that is good enough from where the eye is. If the frame's
+/// time does not suffice, some objects are drawn in a quicker way with a larger error.
 ///
-/// Good     an option is enough if its error is within the tolerance. Options that err less than the quickest of these are not
+/// Good     an option is enough if its error is within the tolerance. Options with less error than the quickest of these are not
 ///          worth their time.
-/// Short    a knapsack with one choice for each object: of all steps to a quicker option those come first that add the least
+/// Short    a knapsack with one choice for each object: of all steps to a quicker option, take first those that add the least
 ///          error, weighted by the object's pixels, for each microsecond saved.
-/// Steady   an option that is enough stays while it costs at most a third more than the quickest. A quicker one is entered
+/// Steady   hysteresis: an option that is enough stays while it costs at most a third more than the quickest; a quicker one is entered
 ///          at `entered_tolerance` of the tolerance, so that an eye at one place does not change it back and forth. Short of
 ///          time, the choices stay while they fit and waste little, or have changed within `dwell_s`.
 ///
@@ -60,7 +60,7 @@ private:
         std::uint32_t seen = 0;
         std::uint32_t to = 0;
     };
-    /// The option that is enough, or the one that errs least.
+    /// The option that is enough, or the one with the least error.
     [[nodiscard]] static std::uint32_t enough(std::span<const RoomOption> own, std::uint32_t present,
                                               double tolerance_px);
     void push_step(std::span<const RoomSeen> seen, std::span<const RoomOption> options, std::uint32_t of);

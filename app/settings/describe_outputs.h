@@ -32,7 +32,7 @@ void distortion_settings(auto& fields, auto& lens) {
     fields.number("k1", lens.k1, distortion,
                   "radial distortion x (1 + k1 r^2 + k2 r^4), r from the optical axis in focal lengths, as "
                   "OpenCV has it; 0: none");
-    fields.number("k2", lens.k2, distortion, "the same of r^4");
+    fields.number("k2", lens.k2, distortion, "coefficient of r^4 in the same formula");
 }
 
 template <typename Fields> void lens_settings(Fields& fields, auto& pinhole) {
@@ -112,10 +112,10 @@ void display_settings(auto& fields, auto& display) {
     fields.parsed("mode", display.mode, text_of, parse_display_mode,
                   "\"preferred\", \"1280x800\" and \"1280x800@60\", of 64 to 8192 pixels and 10 to 480 hertz",
                   "kms; \"preferred\": the picture's own size at refresh_hz, if the projector has that, else "
-                  "the projector's own choice. In another size the picture stands as large as it fits");
+                  "the projector's own choice. In another mode the picture is as large as it fits");
     fields.flag("force", display.force,
-                "kms: the mode is set even where a bad EDID does not name it; where connector names one, "
-                "also while it reports that nothing is connected");
+                "kms: sets the mode even if a bad EDID does not list it; with a named connector also while "
+                "it reports that nothing is connected");
 }
 
 void render_settings(auto& fields, auto& render) {
@@ -150,9 +150,10 @@ template <typename Fields> void prop_size_settings(Fields& fields, auto& prop) {
 template <typename Fields> void prop_file_settings(Fields& fields, auto& prop) {
     fields.path("file", prop.file,
                 "solid: its shape as a plain OBJ; `frustumscreen-bake --prop-file` makes one");
-    fields.long_text("shape", prop.shape_text,
-                     "solid: instead of `file`, the text of such an OBJ, so that the settings travel alone");
-    fields.choice("unit", prop.unit, unit_names, "solid: of the numbers in the OBJ");
+    fields.long_text(
+        "shape", prop.shape_text,
+        "solid: instead of `file`, the text of such an OBJ, so that the settings need no other file");
+    fields.choice("unit", prop.unit, unit_names, "solid: unit of the numbers in the OBJ");
     fields.texts("lit_faces", prop.lit_faces, geometry::max_faces,
                  "solid: names of the faces that get a picture; left out: all, but on the table not the one "
                  "on which it stands");
@@ -219,8 +220,8 @@ void eye_settings(auto& fields, auto& eye) {
 
 void screen_settings(auto& fields, auto& screen) {
     fields.path("room", screen.room,
-                "what stands in the room behind the screen (docs/room.md); left out: there is no screen, and "
-                "none of the keys below counts");
+                "what stands in the room behind the screen (docs/room.md); left out: no screen, and the keys "
+                "below are ignored");
     fields.points("corners_m", screen.corners_m, near_the_table,
                   "corners of the lit area, as people before it see it: top left, top right, bottom right, "
                   "bottom left");

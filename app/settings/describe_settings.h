@@ -203,7 +203,7 @@ void camera_settings(auto& fields, auto& camera) {
 }
 
 template <typename Fields> void key_settings(Fields& fields, auto& key) {
-    fields.text("name", key.name, "whose key it is, for messages");
+    fields.text("name", key.name, "name of the key, for messages");
     fields.parsed(
         "public_key", key.key,
         [](const pack::PublicKey& value) {
@@ -249,7 +249,7 @@ template <typename Fields> void exhibit_settings(Fields& fields, auto& exhibit) 
                 "a frame of light on the table shows where the prop is lit, when it leaves these places or "
                 "is lifted");
     fields.flag("guidance", exhibit.guidance,
-                "signs, texts and speech say what to do where a visitor sees a dark face");
+                "signs, texts and speech say what to do when a visitor sees a dark face");
     fields.path("words", exhibit.words,
                 "the exhibit's own words, from frustumscreen-bake --words; left out: signs without words");
     fields.flag("table_pictures", exhibit.table_pictures,

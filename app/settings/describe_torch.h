@@ -16,14 +16,16 @@ namespace frustumscreen::settings {
 inline constexpr std::array<std::string_view, 4> torch_source_names{"none", "tracker", "camera", "both"};
 
 void beam_settings(auto& fields, auto& beam) {
-    fields.choice("shape", beam.shape, torch::shape_names,
-                  "of the light where the content has none of its own: a disc, or the content's rectangle");
+    fields.choice(
+        "shape", beam.shape, torch::shape_names,
+        "shape of the light if the content has none of its own: a disc, or the content's rectangle");
     fields.choice("attenuation", beam.attenuation, torch::attenuation_names,
-                  "how the light falls with its way from the torch, beyond full_m");
-    fields.number("full_m", beam.full_m, {0.01, 10.0, "metres"}, "up to this way the light is full");
+                  "how the light decreases with its distance from the torch, beyond full_m");
+    fields.number("full_m", beam.full_m, {0.01, 10.0, "metres"}, "distance up to which the light is full");
     fields.number(
         "dark_m", beam.dark_m, {0.02, 20.0, "metres"},
-        "linear, smooth_step: at this way there is none left; inverse_square ends where nobody sees it");
+        "linear, smooth_step: distance at which the light is 0; inverse_square ends where it is too "
+        "dim to see");
 }
 
 /// The tag on a lamp. Its place is in the torch's frame, so that only the words differ from a prop's tag.
@@ -45,8 +47,7 @@ template <typename Fields> void torch_settings(Fields& fields, auto& torch) {
     fields.choice(
         "source", torch.source, torch_source_names,
         "tracker: a sensor in it, station 3; camera: a tag on it, which needs camera.tags; both: one "
-        "of each; none: there is no torch, and of what follows only `frustumscreen render --torch` "
-        "uses the beam");
+        "of each; none: no torch; only `frustumscreen render --torch` uses the beam below");
     constexpr Range opening{0.01, 179.0, "degrees"};
     double opening_deg = std::round(1e9 * glm::degrees(torch.beam.opening_rad)) / 1e9;
     fields.number("opening_deg", opening_deg, opening, "angle of the light across the content's width");
@@ -54,8 +55,9 @@ template <typename Fields> void torch_settings(Fields& fields, auto& torch) {
         torch.beam.opening_rad = glm::radians(opening_deg);
     }
     fields.number("min_opening_deg", torch.min_opening_deg, opening,
-                  "the narrowest, by a twist of the torch to the left");
-    fields.number("max_opening_deg", torch.max_opening_deg, opening, "the widest, by a twist to the right");
+                  "narrowest angle, reached by a twist of the torch to the left");
+    fields.number("max_opening_deg", torch.max_opening_deg, opening,
+                  "widest angle, reached by a twist to the right");
     beam_settings(fields, torch.beam);
     fields.number("house_light", torch.house_light, {0.05, 1.0, "of its usual light"},
                   "the artifact's light while a torch is held; below 1 the torch's light stands out");

@@ -46,10 +46,11 @@ struct ArtifactShowOptions {
     std::string_view program = "frustumscreen"; ///< named in lines on standard error
     std::string packs_key = {}; ///< the key of the packs in the settings, for messages; empty: none
     bool waits =
-        false; ///< in each frame, for everything wanted, so that a run of simulated time is repeatable
+        false; ///< in each frame, for all requested data, so that a run of simulated time is repeatable
     std::uint64_t set_number = 0; ///< `set_number` and `attract`: as SetRequest
     std::vector<AttractLine> attract = {};
-    bool other_sets = false; ///< may come: everything that any set may need is prepared at the start
+    bool other_sets =
+        false; ///< other sets may follow: everything that any set may need is prepared at the start
 };
 
 /// The resources of a show, planned and observed.

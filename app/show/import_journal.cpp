@@ -22,11 +22,11 @@ std::size_t count_of(const library::ImportReport& report, library::ImportOutcome
 Sentence line_of(const library::ImportReport& report) {
     switch (report.stage) {
     case library::ImportStage::Found:
-        return format_sentence("stick: one is there; it is looked through");
+        return format_sentence("stick: a stick is there; its contents are being checked");
     case library::ImportStage::Copying:
         return format_sentence("stick: {} bytes are copied", report.total_bytes);
     case library::ImportStage::MayTakeOut:
-        return format_sentence("stick: it may be taken out");
+        return format_sentence("stick: the stick may be taken out");
     case library::ImportStage::Failed:
         return format_sentence("stick: nothing was taken: {}", report.reason);
     case library::ImportStage::Done:

@@ -77,7 +77,7 @@ void ImportWatch::look(MonotonicTime now) {
     Result<library::ImportReport> report = read();
     if (!report) {
         read_again_ = now + between_tries;
-        const std::string line = report.error().message + "; nothing is told of it on the table";
+        const std::string line = report.error().message + "; the table shows no notice about this stick";
         if (line != said_) {
             say_line("frustumscreen", line);
             said_ = line;

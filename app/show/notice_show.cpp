@@ -30,8 +30,7 @@ constexpr int sample_height = 3;
 ImportWatch::Draw draws_with(pack::LanguageWords words, double texels_per_m) {
     Result<typography::Typesetter> opened = typography::Typesetter::open();
     if (!opened) {
-        say_line("frustumscreen",
-                 "what is done with a stick is not told on the table: " + opened.error().message);
+        say_line("frustumscreen", "the table shows no notices about sticks: " + opened.error().message);
         return [](const exhibit::NoticeText&, const exhibit::NoticeText&) { return exhibit::SharedNotice(); };
     }
     words.sounds.clear();
@@ -132,8 +131,7 @@ NoticeShow::NoticeShow(const settings::Settings& settings, ImportWatch::Answer a
     if (words) {
         draw = draws_with(std::move(*words), residency::text_style(settings).texels_per_m);
     } else {
-        say_line("frustumscreen",
-                 "what is done with a stick is not told on the table: " + words.error().message);
+        say_line("frustumscreen", "the table shows no notices about sticks: " + words.error().message);
     }
     watch_.emplace(settings.exhibit.import_report, std::move(draw), answer);
 }

@@ -1,7 +1,7 @@
 /// Where `frustumscreen render --site` stands: the part of a site around a place of its ground.
 ///
-/// Ground   of the region there (pack_site.h), but not so low that the site's surface above the place would be higher than the middle of the prop:
-///          on a steep slope the prop would stand inside the hill.
+/// Ground   the region's own (pack_site.h). On a steep slope it is raised, so that the site's surface at the place is not above the prop's
+///          middle; else the prop would stand inside the hill.
 /// Frame    box of the whole site.
 /// Threads  any.
 /// Errors   a pack that is no site, a place beside it; as load_cell.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double us_per_part = 4.0;
-/// The first way of an object comes before a better one of another.
+/// Priorities of loading: the first way of each object precedes a better way of another object.
 constexpr double first_urgency = 1e6, solid_urgency = 1e3, unseen_urgency = 0.1;
 
 } // namespace
@@ -74,7 +74,7 @@ void RoomShow::look(double seconds, std::span<const glm::dvec3> eyes_m) {
         seconds, eyes_m, taken_,
         [this](std::uint32_t object) -> const std::optional<scene::BoxCorners>* {
             const std::size_t pack = room_.objects[object].pack;
-            // An object that is missing, or comes just now, hides nothing.
+            // An object that is missing, or is fading in, hides nothing.
             return models_->find(pack) != nullptr && shown_[object].way != none &&
                            models_->find(pack, shown_[object].way) != nullptr
                        ? &models_->solid(pack)
@@ -88,7 +88,7 @@ void RoomShow::look(double seconds, std::span<const glm::dvec3> eyes_m) {
     counts_.seen = view_.seen().size();
 }
 
-/// By the ways that are good enough, loaded or not.
+/// Compares the times of the ways that are good enough, loaded or not.
 void RoomShow::choose_kind() {
     if (rasterizes_ || view_.seen().empty()) {
         return;
@@ -172,7 +172,7 @@ void RoomShow::choose(double seconds) {
     counts_.is_short = choice_.is_short();
 }
 
-/// Follows the choice.
+/// Follows the choice: starts, continues or ends the object's fade.
 void RoomShow::change(std::uint32_t object, double seconds) {
     Shown& shown = shown_[object];
     const std::size_t pack = room_.objects[object].pack;
@@ -210,7 +210,7 @@ void RoomShow::add_part(std::uint32_t object, std::uint32_t way, const std::opti
     part.level.prop_from_placed = view_.objects()[object].table_from_object;
     part.dither = dither;
     indices_ += part.level.triangles ? part.level.triangles->indices.size() : 0;
-    if (indices_ > max_indices_) { // no plan has so much room
+    if (indices_ > max_indices_) { // the plans have no room for it
         indices_ -= part.level.triangles->indices.size();
         parts_.pop_back();
     }
@@ -231,7 +231,8 @@ void RoomShow::add_parts(double seconds) {
         counts_.fading += shown.coming != none ? 1 : 0;
         counts_.fading -= faded ? 1 : 0;
         const double opacity = view_.objects()[each.object].opacity;
-        if (opacity < 1.0) { // one that is taken does not fade between two ways as well
+        if (opacity <
+            1.0) { // a taken object uses the dither for its opacity, so it does not fade between two ways
             const std::uint32_t way = shown.coming != none ? shown.coming : shown.way;
             if (way != none) {
                 add_part(each.object, way, scene::Dither{static_cast<float>(opacity), false});

@@ -1,13 +1,13 @@
-/// The picture of the screen behind the table: the room's objects, each drawn in the quickest way that is good enough from
-/// where the eye is.
+/// The picture of the screen behind the table: the room's objects, each drawn in the quickest way that is good enough for
+/// the eye's place.
 ///
-/// Culled   what lies outside the eye's pyramid through the screen, or behind solids, is neither planned nor drawn
+/// Culled   objects outside the eye's frustum through the screen, or hidden by solids, are neither planned nor drawn
 ///          (room_view.h).
-/// Choice   scene/room_choice.h, within the microseconds that the projector's picture leaves (set_budget). A picture is of
-///          rasterized reliefs or of polygons, whichever is quicker at the start: one of both costs almost as much as two. Packs that
-///          lack the one kind are drawn as the other.
-/// Fades    an object changes its way pixel by pixel. One that was out of the picture changes at once; one that is loaded while
-///          it is in the picture comes the same way. Short of time, a quicker way is taken at once.
+/// Choice   scene/room_choice.h, within the microseconds that the projector's picture leaves (set_budget). All objects are drawn
+///          as rasterized reliefs, or all as polygons, whichever is quicker at the start: a mixed picture costs almost as much as
+///          two. A pack that lacks that kind is drawn as the other.
+/// Fades    an object in view changes its way, or appears, by a dithered fade. Out of view it changes at once. If time is short,
+///          a quicker way is taken at once.
 /// Loading  live, packs are read as the eye nears (residency/room_models.h), and an object that is not loaded yet is missing;
 ///          otherwise each picture waits for all that it needs. They take `room_share` of `exhibit.memory_mb`.
 ///
@@ -62,7 +62,7 @@ public:
         std::size_t seen = 0;    ///< of these, that are not certainly hidden
         std::size_t drawn = 0;   ///< of these, that are loaded
         std::size_t fading = 0;
-        bool is_short = false; ///< of time: some are coarser than is good enough
+        bool is_short = false; ///< some objects are coarser than good enough, for lack of time
     };
 
     /// The settings must have a screen.
@@ -76,7 +76,7 @@ public:
     /// `seconds`: since the objects began to move. `eyes_m`: one for each eye of the layout.
     [[nodiscard]] render::DrawResult draw(double seconds, std::span<const glm::dvec3> eyes_m,
                                           const render::RenderTarget& target, render::Redraw redraw);
-    /// The latest `draw` took `ms` until its picture was complete: later choices count with a machine that is as slow.
+    /// The latest `draw` took `ms` until its picture was complete; later choices assume this speed.
     void record_time(double ms);
 
     /// Factor of all light, 0..1, from the next `draw` on.
@@ -96,11 +96,11 @@ public:
 
 private:
     static constexpr std::uint32_t none = scene::RoomChoice::none;
-    /// How an object is drawn.
+    /// The way in which an object is drawn, and the way that it fades to.
     struct Shown {
         std::uint32_t way = none, coming = none;
         double fade_start_s = 0.0;
-        bool was_seen = false; ///< in the picture before
+        bool was_seen = false; ///< in the previous picture
     };
     /// The manifests and what is missing.
     struct Opened {
@@ -113,7 +113,7 @@ private:
     void reserve(std::span<const std::optional<residency::KnownModel>> models);
     [[nodiscard]] Result<void> measure();
 
-    /// True if the picture's kind allows this way.
+    /// True if a picture of this kind (reliefs or polygons) may draw the object in this way.
     [[nodiscard]] bool allows(const residency::KnownModel& model, const residency::KnownWay& way) const;
     [[nodiscard]] double error_px(const residency::KnownWay& way, std::uint32_t object) const;
     [[nodiscard]] double cost_us(const residency::KnownWay& way, std::uint32_t object) const;

@@ -10,7 +10,7 @@ namespace frustumscreen::show {
 
 namespace {
 
-/// A plan of one eye's picture has room for the triangles of all parts, but for no more than this.
+/// Upper limit for the indices in the plan of one eye's picture.
 constexpr std::size_t max_plan_indices = 24'000'000;
 
 /// Meshes and reliefs of any pack, and their fades.
@@ -115,7 +115,7 @@ Result<std::unique_ptr<RoomShow>> RoomShow::create(const settings::Settings& set
     return show;
 }
 
-/// The first pack that can be read stands for all.
+/// Measures the first pack that can be read; the others are assumed to cost the same.
 Result<void> RoomShow::measure() {
     for (std::size_t model = 0; model < room_.packs.size(); ++model) {
         const residency::KnownModel* const known = models_->find(model);

@@ -58,7 +58,7 @@ Result<LoopResult> LiveLoop::run() {
         if (fault_since_ && now - *fault_since_ >= longest_fault) {
             return fail(ErrorKind::BadConfiguration, "show.no_artifact_left",
                         "no artifact can be shown any more; the lines before this "
-                        "one say why, and a new start looks for packs again");
+                        "one say why, and a restart looks for packs again");
         }
         if (now >= next_status) {
             post_status(now);

@@ -44,8 +44,8 @@ struct LoopOptions {
     Screenshot* screenshot = nullptr;           ///< of the display's size; serves requests for a picture
     std::function<bool()> ends = {};            ///< called in each frame; true ends the loop
     std::function<void()> calibrate = {};       ///< starts the calibration for the staff; none: not available
-    std::function<void()> reset = {}; ///< begins the way back to the state of delivery; none: not available
-    std::function<void()> copy = {};  ///< has a copy written to the stick that waits; none: not available
+    std::function<void()> reset = {};    ///< starts the return to the state of delivery; none: not available
+    std::function<void()> copy = {};     ///< starts the copy to the stick that waits; none: not available
     counts::VisitBook* visits = nullptr; ///< counts visits; none: they are not counted, as in a fast run
     ScreenOutput* screen = nullptr;      ///< behind the table; none: the settings have none
     RunHours* hours = nullptr; ///< opening hours; none: it never sleeps, as in a fast run or with a pattern

@@ -35,10 +35,10 @@ void RunWatch::begin(MonotonicTime now, bool simulated_time, StatusFile& status_
     }
     hang_watch_.emplace(loop_patience, [this, &status_file](std::optional<const char*> part) {
         const Sentence line =
-            part ? format_sentence(
-                       "watchdog: the picture hangs: nothing was heard of the exhibit for {} s, while it {}",
-                       loop_patience / std::chrono::seconds(1), *part)
-                 : Sentence("watchdog: the exhibit is heard of again");
+            part
+                ? format_sentence("watchdog: the picture hangs: the exhibit was silent for {} s, while it {}",
+                                  loop_patience / std::chrono::seconds(1), *part)
+                : Sentence("watchdog: the exhibit responds again");
         journal_.note(part ? service::LogPriority::Error : service::LogPriority::Notice, line.view(),
                       {{"DEVICE", "watchdog"}});
         status_file.note_hang(part.has_value());
@@ -66,7 +66,7 @@ void RunWatch::presented(MonotonicTime now, const display::Display& display, boo
     }
 }
 
-/// A driver that never returned a code cannot read back what it shows; that is no reason to end the exhibit.
+/// A driver that has never returned a code cannot read back what it shows; the exhibit does not end for that.
 std::optional<std::uint8_t> RunWatch::code_of(const display::Display& display) {
     std::array<std::byte, probe_bytes> corner{};
     if (display.read_shown(corner)) {

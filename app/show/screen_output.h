@@ -2,8 +2,8 @@
 ///
 /// Pace     `step` follows the projector's picture in each frame. A picture is drawn only once the screen shows the one
 ///          before, so the projector never waits for the screen; nothing is drawn again that did not change.
-/// Lost     a display that fails is closed and told. It is opened again while nobody uses the exhibit, because opening reads
-///          the room. A room that cannot be read is told, and not read again.
+/// Lost     a display that fails is closed and reported. It is opened again while nobody uses the exhibit, because opening reads
+///          the room. A room that cannot be read is reported, and not read again.
 /// Context  the screen's is current only within a call; afterwards the projector's is.
 /// Time     parameters; the room's time begins with the run.
 /// Threads  the render thread. `step` allocates nothing, unless it opens the screen.
@@ -48,7 +48,7 @@ struct ScreenParts {
     std::function<Result<std::unique_ptr<display::Display>>()> make_display;
     std::function<Result<DrawRoom>()> make_room;
 };
-/// The room of the settings. `live`: as RoomShowOptions. A pack that cannot be read is said on standard error.
+/// The room of the settings. `live`: as RoomShowOptions. A pack that cannot be read is reported on standard error.
 [[nodiscard]] std::function<Result<DrawRoom>()> room_of(const settings::Settings& settings, bool live);
 
 struct ScreenFrame {

@@ -36,7 +36,7 @@ void SetTrial::begin() {
     }
     if (choice_.last_good && verdict_.starts >= library::max_starts) {
         refuse(verdict_.number,
-               fmt::format("the exhibit began with it {} times and never came to show it for {} s",
+               fmt::format("the exhibit started with it {} times and never showed it for {} s",
                            verdict_.starts, long_enough / std::chrono::seconds(1)));
     } else {
         ++verdict_.starts;
@@ -51,7 +51,7 @@ library::SetVerdict SetTrial::told() const {
             .state = library::TrialState::Bad,
             .starts = verdict_.starts,
             .reason =
-                "the watchdog went back to the set before, and tries this one again after ten good minutes"};
+                "the watchdog returned to the previous set; it tries this one again after ten good minutes"};
 }
 
 void SetTrial::shown(MonotonicTime now, std::uint64_t number, const std::string& fault) {

@@ -127,7 +127,8 @@ TableShow TableShow::read(const settings::Settings& settings, const Request& req
     loader.add_marks();
     for (const std::filesystem::path& file : request.packs) {
         if (Result<void> loaded = loader.load(file, show.cards_.emplace_back()); !loaded) {
-            show.notes_.push_back("on the table a square lies for this artifact: " + loaded.error().message);
+            show.notes_.push_back("the table shows a square in place of this artifact's picture: " +
+                                  loaded.error().message);
         }
     }
     return show;

@@ -31,8 +31,8 @@ bool is_tinted(torch::Source source) {
            source == torch::Source::Ruler;
 }
 
-/// Dimmed by the house's light, the surface gets its own light back where the torch is full. Anything that covers the surface goes with
-/// the artifact's light, which the light on its own colours does by itself.
+/// A light on the surface's own colours restores, where it is full, the brightness that the house's light takes away. A content that
+/// covers the surface fades with the artifact's light; a light on the artifact's colours does so without a factor.
 double strength(torch::Blend blend, const exhibit::Presentation& presentation) {
     const double house_light = presentation.torches.house_light;
     return blend == torch::Blend::Light ? std::max(1.0, 1.0 / house_light - 1.0)

@@ -20,13 +20,13 @@ void tracker_fields(auto& fields, auto& counts) {
     fields.field("frames", counts.frames, {},
                  Metric{"tracker_samples_total", "Samples of the tracker that were taken."});
     fields.field("lost", counts.lost, {},
-                 Metric{"tracker_samples_lost_total", "Samples that never came, by their numbers."});
+                 Metric{"tracker_samples_lost_total", "Samples lost, by their numbers."});
     fields.field("duplicated", counts.duplicated);
     fields.field("reordered", counts.reordered);
     fields.field("strange", counts.strange);
     fields.field("unusable", counts.unusable);
     fields.field("broken", counts.broken, {},
-                 Metric{"tracker_samples_broken_total", "How often bytes were thrown away."});
+                 Metric{"tracker_samples_broken_total", "How often bytes were discarded."});
     fields.field("clock_restarts", counts.clock_restarts);
     fields.field("clock_drift_ppm", counts.clock_drift, {},
                  Metric{"tracker_clock_drift_ratio", "How much slower the tracker's clock runs."},
@@ -67,32 +67,28 @@ void import_fields(auto& fields, auto& report) {
 }
 
 void device_fields(auto& fields, auto& status) {
-    fields.object(
-        "devices",
-        "`display`, `screen`, `tracker`, `camera`, `panel` and `sound`, of each `ok`, whether it can be used "
-        "(`null`: "
-        "the "
-        "settings ask for none); `impaired`, it can, and something about it is to be put right; `id`, the "
-        "short name of the sentence that it says below",
-        [&](auto& devices) {
-            condition_fields(devices, "display", status.devices.display);
-            condition_fields(devices, "screen", status.devices.screen);
-            condition_fields(devices, "tracker", status.devices.tracker);
-            condition_fields(devices, "camera", status.devices.camera);
-            condition_fields(devices, "panel", status.devices.panel);
-            condition_fields(devices, "sound", status.devices.sound);
-        });
-    fields.field("display", status.display,
-                 "how the projector is, in one sentence; empty: there is nothing to say");
+    fields.object("devices",
+                  "`display`, `screen`, `tracker`, `camera`, `panel` and `sound`, each with `ok`: it can be "
+                  "used (`null`: the settings have none); `impaired`: it can be used, but needs attention; "
+                  "`id`: message id of its sentence below",
+                  [&](auto& devices) {
+                      condition_fields(devices, "display", status.devices.display);
+                      condition_fields(devices, "screen", status.devices.screen);
+                      condition_fields(devices, "tracker", status.devices.tracker);
+                      condition_fields(devices, "camera", status.devices.camera);
+                      condition_fields(devices, "panel", status.devices.panel);
+                      condition_fields(devices, "sound", status.devices.sound);
+                  });
+    fields.field("display", status.display, "state of the projector, one sentence; empty: nothing to report");
     fields.field(
         "screen", status.screen,
-        "how the screen behind the table is, in one sentence; empty: there is none, or nothing to say");
+        "state of the screen behind the table, one sentence; empty: no screen, or nothing to report");
     fields.object_or_null(
         "screen_picture", status.screen_picture,
-        "what the screen shows: `health`, as above, of this output alone; `code` and `shown_code`, as of the "
-        "projector's picture; pictures `presented`, and of these `drawn` anew; `held_up`, display times at "
-        "which it had "
-        "not shown the picture before; `frame_ms`, as above. `null`: the settings have no screen",
+        "the screen's pictures: `health`: as above, for this output alone; `code`, `shown_code`: as "
+        "for the projector; `presented`: number of pictures; `drawn`: of these, pictures that had "
+        "changed; `held_up`: display times at which the screen had not yet shown the previous "
+        "picture; `frame_ms`: as above. `null`: the settings have no screen",
         Metric{}, [](auto& inner, auto& picture) {
             inner.field("health", picture.health);
             inner.field("code", picture.code);
@@ -110,96 +106,95 @@ void device_fields(auto& fields, auto& status) {
             });
         });
     fields.field("tracker", status.tracker,
-                 "how the tracker is, or what moves the prop in its place; empty: the prop stands");
+                 "state of the tracker, or what moves the prop instead; empty: the prop stands");
     fields.field("tracker_hangs", status.tracker_hangs,
-                 "the tracker is plugged in and does not do what it should: it is silent, refuses its "
-                 "set-up, cannot be opened, or reports a fault of its own. A reset of its port may help");
+                 "the tracker is plugged in but does not work: it is silent, refuses its set-up, cannot be "
+                 "opened, or reports a fault. A reset of its USB port may help");
     fields.object("tracker_counts",
-                  "since the start: `connections`, how often a tracker was opened; `frames` taken; `lost`, "
-                  "`duplicated`, `reordered` frames, by their numbers; `strange`, numbers far from what was "
-                  "due; `unusable` poses; `broken`, how often bytes were thrown away, mostly for a wrong "
-                  "checksum; `clock_restarts`, jumps of the tracker's clock; and `clock_drift_ppm`, how much "
-                  "slower it runs than ours",
+                  "since the start: `connections`: how often a tracker was opened; `frames`: samples taken; "
+                  "`lost`, `duplicated`, `reordered`: frames, by their numbers; `strange`: numbers far from "
+                  "the expected one; `unusable`: invalid poses; `broken`: how often bytes were discarded, "
+                  "mostly for a wrong checksum; `clock_restarts`: jumps of the tracker's clock; "
+                  "`clock_drift_ppm`: how much slower that clock runs than the machine's",
                   [&](auto& counts) { tracker_fields(counts, status.tracker_counts); });
-    fields.field("camera", status.camera, "how the camera is that looks at the table; empty: none does");
-    fields.field("camera_hz", status.camera_hz, "frames a second that came from it of late",
+    fields.field("camera", status.camera,
+                 "state of the camera that looks at the table; empty: there is none");
+    fields.field("camera_hz", status.camera_hz, "recent frames per second of the camera",
                  status.camera.view().empty()
                      ? Metric{}
                      : Metric{"camera_frames_hertz", "Frames a second that come from the camera."});
     fields.field("camera_for", status.camera_for,
-                 "what it is used for: `the prop's tags` ([tags.md](tags.md)), `the picture's place` "
+                 "uses of the camera: `the prop's tags` ([tags.md](tags.md)), `the picture's place` "
                  "([calibration.md](calibration.md#drift)), `the visitor's eye` "
-                 "([visitor_eye.md](visitor_eye.md)), or several of them; empty: nothing");
+                 "([visitor_eye.md](visitor_eye.md)), or several of them; empty: none");
     fields.field("drift", status.drift,
-                 "whether the picture lies where it was calibrated, as the camera sees it, in one sentence; "
-                 "empty: nothing looks (`camera.drift`)");
+                 "whether the picture is where it was calibrated, by the camera, one sentence; empty: not "
+                 "measured (`camera.drift`)");
     fields.field("drift_mm", status.drift_m,
-                 "how far it lies beside that: median of the latest looks; `null`: nothing looks",
-                 Metric{"drift_meters", "How far the picture lies beside where it was calibrated."},
+                 "its distance from there, median of the latest measurements; `null`: not measured",
+                 Metric{"drift_meters", "Distance of the picture from where it was calibrated."},
                  thousandths);
-    fields.field("drifted", status.drifted, "it is to be put right: by more than 2 mm, over five looks",
+    fields.field("drifted", status.drifted,
+                 "the picture must be calibrated again: more than 2 mm off in five measurements",
                  status.drift.view().empty() ? Metric{}
-                                             : Metric{"drifted", "1: the picture is to be put right."});
+                                             : Metric{"drifted", "1: the picture must be calibrated again."});
     fields.field("prop_by", status.prop_by,
-                 "whose pose of the prop is shown: `tracker` or `tags`; empty: the prop stands");
-    fields.field("hand_overs", status.hand_overs,
-                 "how often the tags took over from the tracker, or it from them");
-    fields.object_or_null("torch", status.torch,
-                          "the torch that was taken last ([torch.md](torch.md)): `by`, `tracker` (its "
-                          "station 3) or `tag` (a lamp that a camera "
-                          "sees), empty: neither is seen; `state`: `lit`; `past`, it points past the object; "
-                          "`too_far`, it points at it from "
-                          "beyond its reach; `dark`, nothing is shown that it could light; `laid_down`; "
-                          "`lost`, its place is not known; `content`, "
-                          "what the one in the hand throws, by its name in the pack, or `white`. `null`: the "
-                          "settings have no torch",
-                          Metric{}, [](auto& inner, auto& torch) {
-                              inner.field("by", torch.by);
-                              inner.field("state", torch.state);
-                              inner.field("content", torch.content);
-                          });
+                 "source of the prop's pose: `tracker` or `tags`; empty: none, the prop stands");
+    fields.field("hand_overs", status.hand_overs, "how often the source changed between tracker and tags");
+    fields.object_or_null(
+        "torch", status.torch,
+        "the torch that was taken last ([torch.md](torch.md)): `by`: `tracker` (its station 3) or "
+        "`tag` (a lamp that a camera sees), empty: none is seen; `state`: `lit`; `past`: it points "
+        "past the object; `too_far`: it points at the object from beyond its reach; `dark`: no "
+        "artifact is shown that it could light; `laid_down`; `lost`: its pose is unknown; `content`: "
+        "name of the content of the torch in the hand, or `white`. `null`: the settings have no torch",
+        Metric{}, [](auto& inner, auto& torch) {
+            inner.field("by", torch.by);
+            inner.field("state", torch.state);
+            inner.field("content", torch.content);
+        });
     fields.field("panel", status.panel,
-                 "how the buttons are, or what presses in their place; empty: there are none");
-    fields.field("sound", status.sound, "how the loudspeaker is; empty: there is nothing to say aloud");
-    fields.field("sound_underruns", status.sound_underruns, "how often the sound card had nothing to play",
+                 "state of the buttons, or what presses them instead; empty: there are none");
+    fields.field("sound", status.sound, "state of the loudspeaker; empty: no sound is used");
+    fields.field("sound_underruns", status.sound_underruns,
+                 "underruns: how often the sound card had nothing to play",
                  Metric{"sound_underruns_total", "How often the sound card had nothing to play."});
     fields.field("recording", status.recording,
-                 "how `--record` fares, or why nothing is recorded; empty: nothing was asked for");
+                 "state of `--record`, or why nothing is recorded; empty: not requested");
     fields.object_or_null(
         "import", status.import,
-        "what was done with the latest stick since the machine was started, as the importer's "
-        "report has it: `import_id`, another one for each stick; `stick`, its label; `stage`, one "
-        "of `found`, `copying`, `may_take_out`, `done`, `failed`; `done_bytes` of `total_bytes`; "
-        "`refusal` and `reason` of the stick as a whole; `set_number`, the set that is installed; "
-        "`packs`, each with `file`, `title`, `outcome` (`pending`, `taken`, `already_there`, "
-        "`refused`, `removed`; of a report on the kiosk `written`, `not_written`), `refusal` and `reason`. "
-        "`null`: there was none",
+        "the importer's report on the latest stick since the machine's start: `import_id`: differs "
+        "for each stick; `stick`: its label; `stage`: `found`, `copying`, `may_take_out`, `done` or "
+        "`failed`; `done_bytes` of `total_bytes`; `refusal`, `reason`: of the stick as a whole; "
+        "`set_number`: the set that was installed; `packs`: each with `file`, `title`, `outcome` "
+        "(`pending`, `taken`, `already_there`, `refused`, `removed`; for a report on the kiosk "
+        "`written`, `not_written`), `refusal` and `reason`. `null`: there was none",
         Metric{}, [](auto& inner, auto& report) { import_fields(inner, report); });
-    fields.object_or_null("visits", status.visits,
-                          "of visitors, numbers alone ([counts.md](counts.md)): visits that began `today` "
-                          "and `since_start`, and how long they "
-                          "lasted, `today_s`, `since_start_s`; `trouble`, why the numbers cannot be kept. "
-                          "`null`: they are not counted",
-                          Metric{}, [](auto& inner, auto& visits) {
-                              inner.field("today", visits.today);
-                              inner.field("since_start", visits.since_start, {},
-                                          Metric{"visits_total", "Visits since the exhibit was started."});
-                              inner.field("today_s", visits.today_s);
-                              inner.field("since_start_s", visits.since_start_s, {},
-                                          Metric{"visits_seconds_total", "How long they lasted together."});
-                              inner.field("trouble", visits.trouble);
-                          });
-    fields.field("prop_known", status.prop_known, "the prop's place is known now",
+    fields.object_or_null(
+        "visits", status.visits,
+        "counts of visits ([counts.md](counts.md)): `today`, `since_start`: visits begun; `today_s`, "
+        "`since_start_s`: their total duration; `trouble`: why the numbers cannot be stored. `null`: "
+        "visits are not counted",
+        Metric{}, [](auto& inner, auto& visits) {
+            inner.field("today", visits.today);
+            inner.field("since_start", visits.since_start, {},
+                        Metric{"visits_total", "Visits since the exhibit was started."});
+            inner.field("today_s", visits.today_s);
+            inner.field("since_start_s", visits.since_start_s, {},
+                        Metric{"visits_seconds_total", "How long they lasted together."});
+            inner.field("trouble", visits.trouble);
+        });
+    fields.field("prop_known", status.prop_known, "the prop's pose is known now",
                  Metric{"prop_known", "1: the prop's place is known."});
     fields.field("head_known", status.head_known,
-                 "a sensor on the visitor's head says where it is now; else see `eye_by`",
+                 "a sensor on the visitor's head gives its pose now; otherwise see `eye_by`",
                  Metric{"head_known", "1: the visitor's head is known."});
     fields.field("eye_by", status.eye_by,
                  "source of the visitor's eye: `sensor` on the head, `camera`, or `settings`: "
                  "none, it is `eye.default_m`");
     fields.field("eye_sd_mm", status.eye_sd_m,
-                 "how far an eye by the camera may be off across its line to the prop, RMS on each axis; "
-                 "`null`: it is by another",
+                 "standard deviation of an eye measured by the camera, across its line to the prop, RMS of "
+                 "both axes; `null`: another source",
                  {}, thousandths);
     fields.field("uptime_s", status.uptime_s, "seconds since everything was loaded",
                  Metric{"uptime_seconds", "Time since everything was loaded."});

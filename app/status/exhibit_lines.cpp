@@ -67,10 +67,9 @@ std::string frames_line(const StatusReport& status) {
         return {};
     }
     return fmt::format(
-        "half of the pictures took {:.1f} ms at most, 99 of 100 took {:.1f} ms at most; {} of {} took longer "
-        "than a refresh, {} came too late",
+        "median {:.1f} ms, 99 % within {:.1f} ms; {} of {} pictures took longer than a refresh; {} missed",
         *times.p50, *times.p99, status.missed_deadlines, status.drawn,
-        counted(status.skipped, "look", "looks"));
+        counted(status.skipped, "display time", "display times"));
 }
 
 std::string errors_line(const StatusReport& status) {
@@ -182,7 +181,7 @@ std::string screen_output_line(const StatusReport& status) {
         return {};
     }
     const ScreenReport& screen = *status.screen_picture;
-    return fmt::format("{}; {} pictures, {} of them anew, 95 of 100 within {:.1f} ms",
+    return fmt::format("{}; {} pictures presented, {} of them drawn, 95 % within {:.1f} ms",
                        or_else(status.screen.view(), "drawn, on no screen"), screen.presented, screen.drawn,
                        screen.frame_ms.p95.value_or(0.0));
 }

@@ -148,7 +148,7 @@ ExhibitVerdict verdict_of(const KnownExhibit& known) {
                : ExhibitVerdict{.runs = true,
                                 .well = true,
                                 .sentence =
-                                    "The exhibit runs and is well, but look at this: " + impaired.clauses,
+                                    "The exhibit runs and is well, but needs attention: " + impaired.clauses,
                                 .id = impaired.id};
 }
 

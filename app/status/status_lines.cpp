@@ -39,7 +39,7 @@ std::string starts_line(const StatusReport* status, std::optional<double> age_s,
 
 std::string watchdog_line(const StatusDocument& watchdog) {
     if (watchdog.fields.is_null()) {
-        return "nothing is known of it: " + watchdog.why;
+        return "unknown: " + watchdog.why;
     }
     if (!watchdog.fresh()) {
         return watchdog.age_s ? fmt::format("it does not run, or hangs: its status is {} old",

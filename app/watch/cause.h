@@ -14,7 +14,7 @@ namespace frustumscreen::watch {
 enum class Cause : std::uint8_t {
     SafePictureFails, ///< it is requested, but not alive
     KeepsEnding,      ///< the exhibit's process ended repeatedly
-    NoPicture,        ///< the exhibit runs, or should, but shows no living picture
+    NoPicture,        ///< the exhibit runs, or should, but shows no live picture
     NothingToShow,    ///< the picture is alive, but no pack of the set can be shown
     MemoryShort,      ///< the exhibit takes more and more memory, or the machine has none left
     DeviceSilent,     ///< the tracker is plugged in and has worked, but now sends nothing

@@ -56,7 +56,7 @@ bool Judge::lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience
 
 std::optional<Cause> Judge::trouble_of(MonotonicTime now, const Outcome& outcome, bool lives) {
     const bool ends = endings_ > max_endings;
-    // A start takes longer than an interruption of a living picture.
+    // A start takes longer than an interruption of a live picture.
     const MonotonicTime given = has_lived_ ? now : judged_since_ + patience_.start;
     const bool dark = lasts(Cause::NoPicture, !lives, now, patience_.picture) && now >= given;
     const bool empty =

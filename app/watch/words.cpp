@@ -11,17 +11,17 @@ struct Words {
     std::string_view word, sentence;
 };
 constexpr std::array<Words, cause_count> causes{{
-    {"safe_picture_fails", "the safe picture does not come"},
+    {"safe_picture_fails", "the safe picture does not appear"},
     {"keeps_ending", "the exhibit's program ends again and again"},
-    {"no_picture", "no living picture comes from the exhibit"},
+    {"no_picture", "the exhibit shows no live picture"},
     {"nothing_to_show", "no object of the set can be shown"},
-    {"memory_short", "the exhibit takes more memory than there is"},
-    {"device_silent", "the tracker is plugged in and says nothing"},
+    {"memory_short", "the computer runs out of memory"},
+    {"device_silent", "the tracker is plugged in but sends nothing"},
 }};
 constexpr std::array<Words, step_count> steps{{
     {"restart_exhibit", "the exhibit is started again"},
     {"reset_device", "the tracker's USB port is switched off and on"},
-    {"last_good_set", "the exhibit goes back to the set of objects that was good"},
+    {"last_good_set", "the exhibit goes back to the last good set of objects"},
     {"draw_plainly", "the exhibit draws in the plainest way, without the graphics card's help"},
     {"built_in", "the exhibit shows the object that is built in"},
     {"safe_picture", "words for the staff are shown in place of the exhibit"},
@@ -29,8 +29,8 @@ constexpr std::array<Words, step_count> steps{{
     {"return", "the exhibit goes back to its own set"},
 }};
 constexpr std::array<Words, mode_count> modes{{
-    {"normal", "lets the exhibit show what it wants"},
-    {"last_good_set", "lets the exhibit show the last set of packs that was good"},
+    {"normal", "lets the exhibit run as set up"},
+    {"last_good_set", "lets the exhibit show the last good set of packs"},
     {"plain", "lets the exhibit draw in the plainest way"},
     {"built_in", "lets the exhibit show a built-in artifact"},
     {"safe", "shows the safe picture, with words for the staff"},

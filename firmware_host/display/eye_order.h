@@ -1,10 +1,10 @@
 /// The order of two eyes' pictures on a screen that shows them in turn: refreshes of even number show the left eye's, the
 /// upper half of the framebuffer, and refreshes of odd number the right eye's, the lower half.
 ///
-/// It flips for every refresh, also while the exhibit has nothing new. The eye follows from the number that the card gives
-/// the next refresh, so a flip that comes late costs that refresh, and the one after it shows the eye of its number again; where
-/// the next refresh is too near, the flip waits for the one after it. A framebuffer replaces the one before as a whole,
-/// with whichever eye is next.
+/// A page flip is queued for every refresh, also while the picture stays the same. The parity of the card's refresh number
+/// selects the eye, so a late flip costs one refresh and the order of the eyes is kept. If the next refresh is too near, the flip
+/// waits for the one after it. A new framebuffer replaces the previous one for both eyes, beginning with the eye that is
+/// next.
 ///
 /// A card whose flips do not keep time, or that cannot change the shown rows in a flip, shows the left eye's picture alone.
 ///
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] bool in_turn() const { return refusals_ < max_refusals && card_.flips_keep_time(); }
 
 private:
-    /// After so many the card cannot change the shown rows in a flip.
+    /// After this many refusals the card counts as unable to change the shown rows in a flip.
     static constexpr int max_refusals = 3;
 
     struct Picture {
@@ -56,9 +56,9 @@ private:
 
     void take_flips();
     void take(const Flipped& flipped);
-    /// Flips for the next refresh, if nothing is queued. Done also where there is nothing to do yet.
+    /// Queues a flip for the next refresh, unless one is queued. Also Done if there is nothing to do yet.
     [[nodiscard]] KmsAnswer flip_on();
-    /// Whether the card has taken a flip to the next picture; its report may be lost.
+    /// True if the card has accepted a flip to the next picture; its event may be lost.
     [[nodiscard]] bool next_is_taken() const;
     /// The first row of the eye of the next refresh; nullopt: a flip may miss that refresh.
     [[nodiscard]] std::optional<int> next_row(MonotonicTime now);

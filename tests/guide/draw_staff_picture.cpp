@@ -32,7 +32,7 @@ constexpr const char* status = R"({
  "uptime_s": 36000, "resident_mib": 197})";
 constexpr const char* watchdog = R"({
  "mode": "normal", "trouble": null, "step": null, "reboots_today": 0, "notes": ["the computer has 88 degrees Celsius; give it air"],
- "faults": [{"at": "2026-05-01T09:30:00Z", "awake_s": 5, "sentence": "the tracker is plugged in and says nothing",
+ "faults": [{"at": "2026-05-01T09:30:00Z", "awake_s": 5, "sentence": "the tracker is plugged in but sends nothing",
              "done": "the tracker's USB port is switched off and on", "helped": true}]})";
 
 show::StaffFacts facts_of(const settings::Settings& settings) {

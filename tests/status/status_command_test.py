@@ -70,7 +70,7 @@ def watchdog(**changes):
         "faults": [{"at": "2026-05-01T09:00:00Z", "awake_s": 5000, "cause": "device_hangs", "sentence": "the tracker is silent",
                     "step": "reset_device", "done": "its port is reset", "detail": "", "helped": True},
                    # the wall clock was set back meanwhile
-                   {"at": "2026-05-01T08:30:00Z", "awake_s": 6000, "cause": "no_picture", "sentence": "no living picture comes",
+                   {"at": "2026-05-01T08:30:00Z", "awake_s": 6000, "cause": "no_picture", "sentence": "no live picture",
                     "step": "restart_exhibit", "done": "the exhibit is started again", "detail": "killed KILL", "helped": False}]}
     status.update(changes)
     return status
@@ -135,7 +135,7 @@ class Text(Status):
         self.assertEqual(self.line(text, "tracker"), "a VIPER sends")
         self.assertEqual(self.line(text, "projector"), "lights HDMI-A-1")
         self.assertEqual(self.line(text, "buttons"), "there are none")
-        self.assertIn("half of the pictures took 8.5 ms at most, 99 of 100 took 17.2 ms at most; 3 of 4000 took longer",
+        self.assertIn("median 8.5 ms, 99 % within 17.2 ms; 3 of 4000 pictures took longer",
                       self.line(text, "frame times"))
         self.assertIn("9 errors of devices; tracker: 11 of 5000 samples lost", self.line(text, "errors"))
         self.assertEqual(self.line(text, "packs"),
@@ -146,7 +146,7 @@ class Text(Status):
                          r"watchdog \(killed KILL\)$")
         self.assertIn("1 restart of the machine today", self.line(text, "watchdog"))
         self.assertEqual(self.line(text, "last faults"),
-                         "2026-05-01T08:30:00Z no living picture comes: the exhibit is started again, which did not help (killed KILL)")
+                         "2026-05-01T08:30:00Z no live picture: the exhibit is started again, which did not help (killed KILL)")
         self.assertIn("2026-05-01T09:00:00Z the tracker is silent: its port is reset, which helped", text)
         self.assertEqual(self.line(text, "machine"), "the disk is 95 % full; it is hot?")
         self.assertEqual(self.line(text, "versions"), "FrustumScreen 1.2.3, packs of format 2, Debian GNU/Linux 12, Linux 6.1")
@@ -173,7 +173,7 @@ class Text(Status):
 
     def test_without_a_watchdog_it_says_so(self):
         self.write("status.json", exhibit())
-        self.assertRegex(self.line(self.text(0), "watchdog"), r"^nothing is known of it: .*dog.json: there is no such file$")
+        self.assertRegex(self.line(self.text(0), "watchdog"), r"^unknown: .*dog.json: there is no such file$")
 
     def test_the_system_of_an_appliance_and_an_update_that_did_not_start(self):
         self.write("status.json", exhibit())
@@ -252,7 +252,7 @@ class Text(Status):
                 ({"drift": "the picture lies 5.0 mm beside where it was calibrated; hold both", "drifted": True},
                  "the picture lies 5.0 mm beside where it was calibrated", "drift.moved")):
             self.write("status.json", exhibit(**changes))
-            self.assertEqual(self.text(0).split("\n")[0], f"The exhibit runs and is well, but look at this: {words}.")
+            self.assertEqual(self.text(0).split("\n")[0], f"The exhibit runs and is well, but needs attention: {words}.")
             self.assertEqual(json.loads(self.run_status("--json").stdout)["id"], short_name)
         self.write("status.json", exhibit(**(NO_TRACKER | {"drifted": True, "drift": "it moved"})))
         self.assertEqual(self.text(1).split("\n")[0], "The exhibit runs, but: no tracker is connected.")
@@ -375,7 +375,7 @@ class Json(Status):
 
     def test_each_sentence_of_the_watchdog_has_its_id(self):
         self.write("status.json", exhibit())
-        trouble = {"cause": "no_picture", "sentence": "no living picture comes from the exhibit", "since_s": 90}
+        trouble = {"cause": "no_picture", "sentence": "the exhibit shows no live picture", "since_s": 90}
         for changes, short_name in (({"trouble": trouble}, "watchdog.no_picture"), ({"mode": "plain"}, "watchdog.plain"),
                                     ({"trouble": trouble | {"cause": "\u001b[2J"}}, "watchdog.trouble"),
                                     ({"mode": "invented"}, "watchdog.unheard_of"),
@@ -447,7 +447,7 @@ class Prometheus(Status):
                    "frame_ms": {"p50": 4.5, "p95": 6.0, "p99": 9.25}}
         lit = exhibit(devices=devices(screen=device(True, "display.lit")), screen="the screen at DP-1 is lit", screen_picture=picture)
         self.write("status.json", lit)
-        self.assertIn("the screen at DP-1 is lit; 7000 pictures, 600 of them anew, 95 of 100 within 6.0 ms", self.text(0))
+        self.assertIn("the screen at DP-1 is lit; 7000 pictures presented, 600 of them drawn, 95 % within 6.0 ms", self.text(0))
         families = self.families(0)
         self.assertEqual(self.value(families, "device_ok", device="screen"), 1)
         self.assertEqual(self.value(families, "screen_pictures"), 7000)

@@ -42,7 +42,7 @@ Result<scene::PartFrame> frame_in(const bake::WorldCells& cells, double mm_per_b
     return scene::quickest_frame(parts);
 }
 
-/// False: a cell errs more than the whole may.
+/// True if each cell keeps the tolerance of the whole.
 bool all_enough(const scene::PartFrame& frame) {
     return std::all_of(frame.ways.begin(), frame.ways.end(),
                        [](const scene::PartWay& way) { return way.way.enough; });

@@ -19,7 +19,7 @@
 namespace frustumscreen::programs {
 
 /// `cell` of channels, springs and pendulums is the index of a node of the mesh. `lost`: a sentence for each animation
-/// that a world has no room for.
+/// beyond the number that a world may have.
 [[nodiscard]] Result<std::vector<pack::PackBehaviour>>
 behaviours_of(std::span<const folder::ArtifactBehaviour> written, const bake::SourceMesh& mesh,
               std::vector<std::string>& lost);

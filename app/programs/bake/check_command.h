@@ -1,4 +1,4 @@
-/// frustumscreen-bake --check: says of scans what they have, what a bake would lose and about what it would make.
+/// frustumscreen-bake --check: reports of scans what they contain, what a bake would lose, and roughly what it would make.
 ///
 /// Threads  the main one.
 #pragma once

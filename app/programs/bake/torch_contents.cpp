@@ -133,7 +133,7 @@ private:
         return {};
     }
 
-    /// Labels and drawings are small without loss; of a photograph nobody sees it.
+    /// Lossless compression keeps labels and drawings small; in a photograph the loss is not visible.
     static Bytes packed(const image::Image8& picture) {
         constexpr std::size_t enough_bytes = 1U << 20;
         constexpr float quality = 90.0F;

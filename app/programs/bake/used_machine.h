@@ -9,7 +9,7 @@ namespace frustumscreen::programs {
 
 struct UsedMachine {
     double processor_s = 0.0;       ///< of all cores together
-    std::uint64_t memory_bytes = 0; ///< the most at a time; 0 where the system does not say
+    std::uint64_t memory_bytes = 0; ///< peak; 0 where the system does not report it
 };
 [[nodiscard]] UsedMachine used_machine();
 

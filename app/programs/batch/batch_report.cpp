@@ -149,8 +149,8 @@ std::string report_page(std::span<const BatchRow> rows, std::string_view title, 
         "<th>size</th><th>mean mm</th><th>95 % mm</th><th>colour</th><th>silent</th>{}"
         "<th class=\"text\">title, or why not</th></tr>\n{}</table>\n<p>Distances are between the level that "
         "is usually "
-        "shown and the scan; colour is in steps of 255. Lost and silent: how many things the bake said so "
-        "of. About: as frustumscreen-bake --check estimates it.</p>\n"
+        "shown and the scan; colour is in steps of 255. Lost, silent: the number of losses and of "
+        "descriptions without speech. About: as frustumscreen-bake --check estimates it.</p>\n"
         "</body>\n</html>\n",
         policy_hash(style), xml_text(title), style, xml_text(title), summary(rows), words_of_time(seconds),
         over, headings, lines);

@@ -136,7 +136,7 @@ measure_set_ups(const std::string& name, const BenchPlace& place, const BenchArt
 [[nodiscard]] BenchCommand setup_command(CommandLine& app);
 /// The cost of two eyes' pictures over that of one.
 [[nodiscard]] BenchCommand stereo_command(CommandLine& app);
-/// Which cells are polygons and which are relief: ours against the paper's choice, on one walk.
+/// Which cells are polygons and which are reliefs: our choice against the paper's, on one walk.
 [[nodiscard]] BenchCommand mixed_command(CommandLine& app);
 /// The room behind the screen, of many objects, against other ways to draw it.
 [[nodiscard]] BenchCommand room_command(CommandLine& app);

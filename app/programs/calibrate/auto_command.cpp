@@ -102,7 +102,7 @@ void add_auto_command(CommandLine& app, CalibrateRequest& request, std::function
         .excludes(from);
     command.add_option("--out", request.out, "on the table: write the rests to this CSV file, for --from")
         .excludes(from);
-    command.add_flag("--headless", request.headless, "on the table: run run without a screen, for tests")
+    command.add_flag("--headless", request.headless, "on the table: run without a screen, for tests")
         .excludes(from);
     command.callback([&] {
         if (request.from.empty() && (request.config.empty() || request.json)) {

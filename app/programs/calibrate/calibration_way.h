@@ -18,7 +18,7 @@ enum class CalibrationWay {
     Crosses  ///< a whole calibration by touch
 };
 
-/// The end of a way that did not end without a calibration.
+/// How a way ended, unless it ended without a calibration.
 enum class WayEnd {
     Kept,
     GoesOn ///< to the next way

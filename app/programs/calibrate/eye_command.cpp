@@ -145,7 +145,7 @@ void add_eye_command(CommandLine& app, CalibrateRequest& request, std::function<
         .needs(from);
     command.add_option("--out", request.out, "on the table: write the sightings to this CSV file, for --from")
         .excludes(from);
-    command.add_flag("--headless", request.headless, "on the table: run run without a screen, for tests")
+    command.add_flag("--headless", request.headless, "on the table: run without a screen, for tests")
         .excludes(from);
     command.callback([&] { chosen = [&] { return end_with(eye(request)); }; });
 }

@@ -26,7 +26,7 @@ void TimeLeft::report(double now_s, double done) {
         ++stage;
     }
     if (stage > stage_) {
-        passed_.add((now_s - stage_begin_s_) / expected(), 1.0); // stages that are left out say nothing
+        passed_.add((now_s - stage_begin_s_) / expected(), 1.0); // skipped stages do not count
         stage_ = stage;
         stage_begin_s_ = now_s;
     }

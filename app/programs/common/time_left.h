@@ -1,8 +1,8 @@
-/// How long the rest of a work of several stages takes, from what each was expected to take and what the passed ones took.
+/// Estimates the remaining time of a job with several stages from the expected time of each and the real time of the past ones.
 ///
-/// Rule     of the stage that is running, its own progress decides, once it has some. Those to come take what is expected
-///          times a factor: the geometric mean of the passed stages' factors and one more of 1. So one slow stage, such as
-///          reading from a slow disk, slows the expected rest by the root of its factor; several slow ones by nearly all of it.
+/// Method   the running stage is extrapolated from its own progress. The stages to come take their expected time multiplied by a
+///          factor: the geometric mean of the past stages' factors (real over expected time) and an additional 1. So one slow
+///          stage, such as reading from a slow disk, slows the rest by the square root of its factor; several do so almost fully.
 /// Units    seconds since any beginning; done: the share of the whole work, 0..1.
 /// Threads  values; any.
 #pragma once
@@ -26,7 +26,7 @@ private:
         double sum = 0.0;
         double count = 0.0;
         void add(double factor, double weight);
-        [[nodiscard]] double mean() const; ///< with one more of 1
+        [[nodiscard]] double mean() const; ///< geometric, with an additional 1
     };
     [[nodiscard]] double begin() const { return stage_ == 0 ? 0.0 : ends_[stage_ - 1]; }
     [[nodiscard]] double expected() const { return (ends_[stage_] - begin()) * expected_s_; }

@@ -124,7 +124,7 @@ struct OpenExhibit {
     std::unique_ptr<show::ScreenOutput> screen; ///< none: the settings have no screen
 };
 
-/// A screen that cannot be opened is told in the status; the projector does not wait for it. The alignment pattern has no room.
+/// The status reports a screen that cannot be opened; the projector does not wait for it. The alignment pattern has no room.
 std::unique_ptr<show::ScreenOutput> open_screen(const RunRequest& request, const settings::Settings& settings,
                                                 display::Display& projector, MonotonicTime start) {
     if (!settings.screen.exists() || request.pattern) {
@@ -150,7 +150,7 @@ Result<OpenExhibit> open(const RunRequest& request, const settings::Settings& se
     const std::filesystem::path& library = settings.exhibit.library;
     const std::optional<show::FileStamp> set_before = show::stamp_of_set(library);
     const MonotonicTime begin =
-        now(); // of the room's time: what is taken glides from where the screen shows it
+        now(); // start of the room's time: a taken object glides from where the screen shows it
     Result<std::unique_ptr<show::Show>> show = [&] {
         const service::StopSignals::AtOnce at_once(
             stop_signals); // loading takes long and leaves nothing behind

@@ -17,7 +17,7 @@ namespace frustumscreen::programs {
 
 namespace {
 
-/// A room that cannot be read is told by who draws it; the artifacts are then in the prop alone.
+/// The screen's output reports a room that cannot be read; the artifacts are then only in the prop.
 void take_from_room(const settings::Settings& settings, MonotonicTime start, show::LiveExhibit& live) {
     const Result<room::Room> room = room::read_room(settings.screen.room);
     if (!room) {

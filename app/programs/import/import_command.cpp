@@ -153,8 +153,8 @@ void leave_mark(const ImportArguments& arguments, std::string_view name, std::st
     }
 }
 
-/// A request for the state of delivery, which the staff must confirm; none: there is none that counts. Why one does not
-/// count is told by the unit that writes to the stick.
+/// A valid request for the state of delivery, which the staff must confirm; none: there is none. The unit that writes to
+/// the stick reports why a request is invalid.
 std::optional<library::ImportedPack> reset_asked_for(FileTree& stick, WritableTree& settings,
                                                      std::optional<std::chrono::sys_days> today) {
     const tl::expected<library::OwnSettings, library::ImportFailure> own =

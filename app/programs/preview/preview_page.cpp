@@ -191,13 +191,13 @@ std::string language_part(const ProjectedLanguage& language) {
     const std::size_t last = language.ends_with_attribution ? 1 : 0;
     const std::size_t portions = language.portions.size() - last;
     std::string left =
-        figure(language.title,
-               last > 0 ? "title, short text and, where there is room, whose it is" : "title and short text");
+        figure(language.title, last > 0 ? "title, short text and, if there is room, the attribution"
+                                        : "title and short text");
     for (std::size_t k = 0; k < portions; ++k) {
         left += figure(language.portions[k], fmt::format("description, {} of {}", k + 1, portions));
     }
     if (last > 0) {
-        left += figure(language.portions.back(), "whose it is, at the end of what is told");
+        left += figure(language.portions.back(), "the attribution, at the end of the narration");
     }
     const std::string sound =
         !language.sound.empty()
