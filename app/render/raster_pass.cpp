@@ -2,6 +2,7 @@
 
 #include "app/render/face_pass.h"
 #include "app/render/gl_memory.h"
+#include "app/scene/torch_plan.h"
 #include "firmware_host/base/usable_cores.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -72,6 +73,17 @@ std::optional<scene::TorchDraw> of_all_reliefs(const scene::FramePlan& plan, con
         all.bounds = united(all.bounds, other.bounds);
     }
     return all;
+}
+
+/// True if each torch is plain light whose shadows are found on the processor.
+bool lights_on_processor(const scene::FramePlan& plan) {
+    for (std::size_t k = 0; k < plan.torches.size(); ++k) {
+        const scene::PlacedTorch& torch = plan.torches[k].torch;
+        if (!is_plain(torch) || (torch.casts_shadows && !scene::is_found_on_processor(plan.torch_views[k]))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /// The edges of the draw's face as half spaces of rays.
@@ -449,7 +461,7 @@ void RasterPass::begin_lighting() const {
 }
 
 int RasterPass::light(const Lit& lit) const {
-    if (overlaid_.empty() || (copied_.empty() && drawn_.empty())) {
+    if (lights_here_ || overlaid_.empty() || (copied_.empty() && drawn_.empty())) {
         return 0;
     }
     begin_lighting();
@@ -485,6 +497,7 @@ void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
     for (relief::TileMask& asked : asked_) {
         asked.clear();
     }
+    lights_here_ = drawn_.empty() && lights_on_processor(plan);
     const relief::PictureSpan<const float> nearness{.first = nearness_.texels.data(),
                                                     .width = nearness_.width,
                                                     .height = nearness_.height,
@@ -504,7 +517,7 @@ void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
             }
         }
         asked_.at(face.torch).ask(lit.asked);
-        if (lit.rectangles.empty()) {
+        if (lit.rectangles.empty() || lights_here_) {
             continue;
         }
         glActiveTexture(GL_TEXTURE0);
@@ -514,6 +527,24 @@ void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
             glBindTexture(GL_TEXTURE_2D, layer_texels_.get());
             upload(layers_of_torches(), lit.rectangles, plan.picture.viewport);
         }
+    }
+}
+
+void RasterPass::light_here(const scene::FramePlan& plan, std::size_t torch, const torch::ShadowMap* shadow) {
+    for (std::size_t k = 0; k < plan.torch_faces.size(); ++k) {
+        const scene::TorchFace& face = plan.torch_faces[k];
+        if (face.torch != torch || lit_parts_[k].rectangles.empty()) {
+            continue;
+        }
+        plain_light_.light({.plan = plan, .face = face, .shadow = shadow}, lit_parts_[k].rectangles,
+                           {.first = nearness_.texels.data(),
+                            .width = nearness_.width,
+                            .height = nearness_.height,
+                            .stride = nearness_.width},
+                           {.first = memory_.texels.data(),
+                            .width = memory_.width,
+                            .height = memory_.height,
+                            .stride = memory_.width});
     }
 }
 
