@@ -75,6 +75,19 @@ std::optional<scene::TorchDraw> of_all_reliefs(const scene::FramePlan& plan, con
     return all;
 }
 
+/// The pixels of a torch's face that have a relief in its light, of which alone the nearness was found.
+PixelRectangle reliefs_in_light(const scene::FramePlan& plan, const scene::TorchFace& face) {
+    PixelRectangle reliefs;
+    for (const scene::TorchDraw& lit : plan.torch_draws) {
+        const scene::Draw& draw = plan.draws[lit.draw];
+        if (lit.torch == face.torch && draw.face == face.face &&
+            draw.shader.pass == scene::ShaderKey::Pass::Raster) {
+            reliefs = united(reliefs, lit.bounds);
+        }
+    }
+    return reliefs;
+}
+
 /// True if each torch is plain light whose shadows are found on the processor.
 bool lights_on_processor(const scene::FramePlan& plan) {
     for (std::size_t k = 0; k < plan.torches.size(); ++k) {
@@ -507,10 +520,12 @@ void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
         LitParts& lit = lit_parts_[k];
         lit.rectangles.clear();
         lit.asked.clear();
+        const PixelRectangle reliefs = reliefs_in_light(plan, face);
         for (const std::vector<PixelRectangle>* const parts : {&copied_, &drawn_}) {
             for (const PixelRectangle& part : *parts) {
                 for (const PixelRectangle& rectangle : face.lit.rectangles()) {
-                    if (const PixelRectangle both = intersected(part, rectangle); !both.empty()) {
+                    const PixelRectangle both = intersected(intersected(part, rectangle), reliefs);
+                    if (!both.empty()) {
                         add_lit(plan, face, both, nearness, lit);
                     }
                 }
