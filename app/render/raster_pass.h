@@ -15,6 +15,7 @@
 #include "app/render/nearness_tiles.h"
 #include "app/render/point_painter.h"
 #include "app/render/raster.h"
+#include "app/render/relief_light.h"
 #include "app/render/shader_cache.h"
 #include "app/render/torch_uniforms.h"
 #include "app/scene/frame_plan.h"
@@ -49,8 +50,12 @@ public:
     /// Shows the other parts in the bound framebuffer, whose colour must be a texture; returns the number of draw calls.
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
-    /// After `paint`: which parts of what `show` shows the plan's torches light. Uploads what their light takes.
+    /// After `paint`: which parts of what `show` shows the plan's torches light. Uploads what their light takes on the GPU.
     void find_lit_parts(const scene::FramePlan& plan);
+    /// Since then: `light_here` is to be called for each torch, in order, in place of `light`.
+    [[nodiscard]] bool lights_here() const { return lights_here_; }
+    /// A torch's plain light on these parts, in main memory. `shadow`: PlainLight.
+    void light_here(const scene::FramePlan& plan, std::size_t torch, const torch::ShadowMap* shadow);
     /// The tiles of a torch's own picture that these parts ask for.
     [[nodiscard]] const relief::TileMask& asked_of(std::size_t torch) const { return asked_[torch]; }
 
@@ -105,6 +110,8 @@ private:
     std::vector<PixelRectangle> rectangles_; ///< of one draw
     std::vector<LitParts> lit_parts_;        ///< the first ones are of FramePlan::torch_faces
     std::array<relief::TileMask, torch::max_torches> asked_{};
+    ReliefLight plain_light_;
+    bool lights_here_ = false;
     bool layered_ = false; ///< a torch shows other colours of what was painted
     image::Image8 layer_;  ///< what a torch shows in place of the reliefs' colours; empty: nothing yet
     gl::GlTexture layer_texels_;

@@ -1,6 +1,7 @@
 /// RasterPass: torches on what it has painted.
 #include "app/render/face_pass.h"
 #include "app/render/raster_pass.h"
+#include "app/scene/torch_plan.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -30,6 +31,30 @@ std::optional<scene::TorchDraw> of_all_reliefs(const scene::FramePlan& plan, con
         all.bounds = united(all.bounds, other.bounds);
     }
     return all;
+}
+
+/// The pixels of a torch's face that have a relief in its light, of which alone the nearness was found.
+PixelRectangle reliefs_in_light(const scene::FramePlan& plan, const scene::TorchFace& face) {
+    PixelRectangle reliefs;
+    for (const scene::TorchDraw& lit : plan.torch_draws) {
+        const scene::Draw& draw = plan.draws[lit.draw];
+        if (lit.torch == face.torch && draw.face == face.face &&
+            draw.shader.pass == scene::ShaderKey::Pass::Raster) {
+            reliefs = united(reliefs, lit.bounds);
+        }
+    }
+    return reliefs;
+}
+
+/// True if each torch is plain light whose shadows are found on the processor.
+bool lights_on_processor(const scene::FramePlan& plan) {
+    for (std::size_t k = 0; k < plan.torches.size(); ++k) {
+        const scene::PlacedTorch& torch = plan.torches[k].torch;
+        if (!is_plain(torch) || (torch.casts_shadows && !scene::is_found_on_processor(plan.torch_views[k]))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /// The edges of the draw's face as half spaces of rays.
@@ -129,7 +154,7 @@ void RasterPass::begin_lighting() const {
 }
 
 int RasterPass::light(const Lit& lit) const {
-    if (overlaid_.empty() || (copied_.empty() && drawn_.empty())) {
+    if (lights_here_ || overlaid_.empty() || (copied_.empty() && drawn_.empty())) {
         return 0;
     }
     begin_lighting();
@@ -165,6 +190,7 @@ void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
     for (relief::TileMask& asked : asked_) {
         asked.clear();
     }
+    lights_here_ = drawn_.empty() && lights_on_processor(plan);
     const relief::PictureSpan<const float> nearness{.first = nearness_.texels.data(),
                                                     .width = nearness_.width,
                                                     .height = nearness_.height,
@@ -174,17 +200,19 @@ void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
         LitParts& lit = lit_parts_[k];
         lit.rectangles.clear();
         lit.asked.clear();
+        const PixelRectangle reliefs = reliefs_in_light(plan, face);
         for (const std::vector<PixelRectangle>* const parts : {&copied_, &drawn_}) {
             for (const PixelRectangle& part : *parts) {
                 for (const PixelRectangle& rectangle : face.lit.rectangles()) {
-                    if (const PixelRectangle both = intersected(part, rectangle); !both.empty()) {
+                    const PixelRectangle both = intersected(intersected(part, rectangle), reliefs);
+                    if (!both.empty()) {
                         add_lit(plan, face, both, nearness, lit);
                     }
                 }
             }
         }
         asked_.at(face.torch).ask(lit.asked);
-        if (lit.rectangles.empty()) {
+        if (lit.rectangles.empty() || lights_here_) {
             continue;
         }
         glActiveTexture(GL_TEXTURE0);
@@ -194,6 +222,24 @@ void RasterPass::find_lit_parts(const scene::FramePlan& plan) {
             glBindTexture(GL_TEXTURE_2D, layer_texels_.get());
             upload(layers_of_torches(), lit.rectangles, plan.picture.viewport);
         }
+    }
+}
+
+void RasterPass::light_here(const scene::FramePlan& plan, std::size_t torch, const torch::ShadowMap* shadow) {
+    for (std::size_t k = 0; k < plan.torch_faces.size(); ++k) {
+        const scene::TorchFace& face = plan.torch_faces[k];
+        if (face.torch != torch || lit_parts_[k].rectangles.empty()) {
+            continue;
+        }
+        plain_light_.light({.plan = plan, .face = face, .shadow = shadow}, lit_parts_[k].rectangles,
+                           {.first = nearness_.texels.data(),
+                            .width = nearness_.width,
+                            .height = nearness_.height,
+                            .stride = nearness_.width},
+                           {.first = memory_.texels.data(),
+                            .width = memory_.width,
+                            .height = memory_.height,
+                            .stride = memory_.width});
     }
 }
 

@@ -103,7 +103,7 @@ Result<void> TorchPass::make_targets() {
 }
 
 int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-                   const RasterPass& painted) {
+                   RasterPass& painted) {
     const bool meshes = FacePass::draws(plan);
     pictures_.clear();
     int calls = 0;
@@ -116,6 +116,9 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
                    .colour = target.colour.get(),
                    .inverse_z = light.inverse_z_of_depth};
         if (!light.torch.casts_shadows) {
+            if (painted.lights_here()) {
+                painted.light_here(plan, k, nullptr);
+            }
             continue;
         }
         const bool on_processor = scene::is_found_on_processor(view);
@@ -127,7 +130,14 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
             calls += draw_view(view, target, store, shaders, shows_own_view(light));
         }
         if (on_processor) {
-            cast_view(light, view, meshes ? tiles_in(light.torch.beam) : painted.asked_of(k), target, store);
+            const relief::TileMask asked = meshes ? tiles_in(light.torch.beam) : painted.asked_of(k);
+            cast_view(light, view, asked, store);
+            if (painted.lights_here()) {
+                painted.light_here(plan, k, &shadow_map_);
+            }
+            if (meshes || !painted.lights_here()) {
+                upload_shadow(asked.bounds(), target);
+            }
             picture.shadow = target.nearness.get();
             picture.inverse_z = light.inverse_z_of_nearness;
         } else {
@@ -139,13 +149,12 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
 }
 
 void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
-                          const relief::TileMask& asked, const Target& target, const GpuStore& store) {
-    const PixelRectangle bounds = asked.bounds();
-    if (bounds.empty()) {
+                          const relief::TileMask& asked, const GpuStore& store) {
+    if (asked.bounds().empty()) {
         return;
     }
     constexpr int px = scene::torch_picture_px;
-    shadow_map_.begin(px, px);
+    shadow_map_.begin(px, px, asked.bounds());
     if (view.relief_draw_count > 0) {
         const auto as_picture = [](std::span<float> rows) {
             return relief::PictureSpan<float>{.first = rows.data(), .width = px, .height = px, .stride = px};
@@ -170,7 +179,15 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
                              std::span(view.indices).subspan(draw.range.first, draw.range.count));
         }
     }
-    shadow_map_.find_farthest(slack_of(light));
+    shadow_map_.end(slack_of(light));
+}
+
+void TorchPass::upload_shadow(const PixelRectangle& bounds, const Target& target) {
+    if (bounds.empty()) {
+        return;
+    }
+    shadow_map_.find_farthest();
+    constexpr int px = scene::torch_picture_px;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target.nearness.get());
     const std::span<const torch::ShadowMap::Farthest> first =

@@ -27,10 +27,10 @@ public:
 
     /// Makes the pictures if plans may have torches.
     [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs);
-    /// Finds or draws what each of the plan's torches sees; of the plan's own picture `painted` has what is rasterized. Returns the
-    /// number of draw calls.
+    /// Finds or draws what each of the plan's torches sees; of the plan's own picture `painted` has what is rasterized, and is lit here
+    /// if it is lit on the processor. Returns the number of draw calls.
     int see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
-            const RasterPass& painted);
+            RasterPass& painted);
     /// One for each of the plan's torches, since `see`.
     [[nodiscard]] std::span<const TorchPicture> pictures() const { return pictures_; }
 
@@ -51,10 +51,11 @@ private:
         gl::GlTexture nearness; ///< shadow map of what was found on the processor
     };
     [[nodiscard]] Result<void> make_targets();
-    /// Finds the nearness of what the torch sees in some tiles of its picture, on the processor, and copies it into the target's
-    /// texture.
+    /// Finds the nearness of what the torch sees in some tiles of its picture, on the processor.
     void cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
-                   const relief::TileMask& asked, const Target& target, const GpuStore& store);
+                   const relief::TileMask& asked, const GpuStore& store);
+    /// Copies what lies within the bounds of the shadow map into the target's texture.
+    void upload_shadow(const PixelRectangle& bounds, const Target& target);
     /// Draws all that the torch sees, with its colours or without; or the depths of what is turned away from it. Returns the number
     /// of draw calls.
     int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,

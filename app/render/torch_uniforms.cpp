@@ -12,22 +12,6 @@ namespace frustumscreen::render {
 
 namespace {
 
-/// (full / way)^2, but for InverseSquare without bound; and the polynomial's share, square and cube.
-glm::vec4 fall_of(const torch::Beam& beam) {
-    constexpr float unbounded = 1e30F;
-    switch (beam.attenuation) {
-    case torch::Attenuation::InverseSquare:
-        return {beam.full_m * beam.full_m, 0.0F, 0.0F, 0.0F};
-    case torch::Attenuation::Linear:
-        return {unbounded, 1.0F, 0.0F, 0.0F};
-    case torch::Attenuation::SmoothStep:
-        return {unbounded, 0.0F, 3.0F, -2.0F};
-    case torch::Attenuation::None:
-        break;
-    }
-    return {unbounded, 0.0F, 0.0F, 0.0F};
-}
-
 void set_beam(const Shader& shader, const scene::TorchLight& light, const glm::vec2& inverse_z) {
     const torch::Beam& beam = light.torch.beam;
     glUniform4f(shader.location(Uniform::Beam), light.per_half_extent.x, light.per_half_extent.y,
@@ -63,6 +47,22 @@ void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
 }
 
 } // namespace
+
+/// (full / way)^2, but for InverseSquare without bound; and the polynomial's share, square and cube.
+glm::vec4 fall_of(const torch::Beam& beam) {
+    constexpr float unbounded = 1e30F;
+    switch (beam.attenuation) {
+    case torch::Attenuation::InverseSquare:
+        return {beam.full_m * beam.full_m, 0.0F, 0.0F, 0.0F};
+    case torch::Attenuation::Linear:
+        return {unbounded, 1.0F, 0.0F, 0.0F};
+    case torch::Attenuation::SmoothStep:
+        return {unbounded, 0.0F, 3.0F, -2.0F};
+    case torch::Attenuation::None:
+        break;
+    }
+    return {unbounded, 0.0F, 0.0F, 0.0F};
+}
 
 const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key,
                          const scene::TorchLight& light) {

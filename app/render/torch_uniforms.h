@@ -39,6 +39,8 @@ void bind(unsigned unit, unsigned texture);
 inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, seen_unit = 7, depths_unit = 8,
                           backs_unit = 9;
 
+/// How a beam's intensity falls (torch_shader.h).
+[[nodiscard]] glm::vec4 fall_of(const torch::Beam& beam);
 /// The share of z by which nothing shades itself: half a pixel of the torch's picture, the depth of a surface that bends within a
 /// pixel.
 [[nodiscard]] double slack_of(const scene::TorchLight& light);

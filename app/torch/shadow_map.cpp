@@ -59,11 +59,15 @@ void narrow(std::int64_t at, std::int64_t per_x, int& first, int& last) {
 
 } // namespace
 
-void ShadowMap::begin(int width, int height) {
+void ShadowMap::begin(int width, int height, const PixelRectangle& part) {
     width_ = width;
     height_ = height;
+    part_ = part;
     has_backs_ = false;
-    nearness_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0F);
+    nearness_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        std::fill_n(nearness_.begin() + static_cast<std::ptrdiff_t>(y) * width + part.x, part.width, 0.0F);
+    }
     backs_.reserve(nearness_.size());
 }
 
@@ -124,32 +128,22 @@ std::span<float> ShadowMap::backs() {
     return backs_;
 }
 
-void ShadowMap::find_farthest(double slack) {
+void ShadowMap::end(double slack) {
+    max_share_ = static_cast<float>(slack);
     const auto nearer = static_cast<float>(1.0 + slack);
     for (std::size_t k = 0; has_backs_ && k < nearness_.size(); ++k) {
         nearness_[k] = backs_[k] > nearer * nearness_[k] ? dark_nearness : nearness_[k];
     }
-    constexpr float share_of_range = 0.5F;
-    const auto max_share = static_cast<float>(slack);
+}
+
+void ShadowMap::find_farthest() {
     farthest_.resize(nearness_.size());
-    for (int y = 0; y + 1 < height_; ++y) {
+    for (int y = part_.y; y + 1 < part_.y + part_.height; ++y) {
         const float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_;
         const float* const below = row + width_;
         Farthest* const out = farthest_.data() + static_cast<std::ptrdiff_t>(y) * width_;
-        for (int x = 0; x + 1 < width_; ++x) {
-            const float a = row[x], b = row[x + 1], c = below[x], d = below[x + 1];
-            const float above_far = std::min(a, b), above_near = std::max(a, b);
-            const float below_far = std::min(c, d), below_near = std::max(c, d);
-            const float nearest = std::max(above_near, below_near);
-            const float first = std::min(above_far, below_far);
-            const float second = std::min(std::max(above_far, below_far), std::min(above_near, below_near));
-            const std::uint32_t which = above_far <= below_far ? (a <= b ? 0U : 1U) : (c <= d ? 2U : 3U);
-            const auto lower = [&](float farthest) {
-                return farthest - std::min(share_of_range * (nearest - farthest), max_share * farthest);
-            };
-            const float without = lower(second);
-            out[x] = {lower(first),
-                      std::bit_cast<float>((std::bit_cast<std::uint32_t>(without) & ~3U) | which)};
+        for (int x = part_.x; x + 1 < part_.x + part_.width; ++x) {
+            out[x] = farthest_of(row[x], row[x + 1], below[x], below[x + 1], max_share_);
         }
     }
 }

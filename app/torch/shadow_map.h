@@ -12,8 +12,13 @@
 ///          both triangles: a surface has no gaps. Triangles that reach beyond a guard band or behind the torch are cut.
 #pragma once
 
+#include "firmware_host/base/pixel_rectangle.h"
+
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,7 +28,11 @@ namespace frustumscreen::torch {
 class ShadowMap {
 public:
     /// Clears the map to `width` x `height` pixels, up to 4096 each.
-    void begin(int width, int height);
+    void begin(int width, int height) {
+        begin(width, height, {.x = 0, .y = 0, .width = width, .height = height});
+    }
+    /// Only what lies in a part of it counts, up to its last column and row; the rest is undefined.
+    void begin(int width, int height, const PixelRectangle& part);
 
     struct View {
         /// (x z, y z, z) of a place of the model: x and y in the picture, z in metres.
@@ -35,9 +44,9 @@ public:
     /// `indices`: three for each triangle, which has two sides.
     void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
-    /// Ends the map: finds `farthest`. A pixel whose first surface is turned away, by more than the share `slack` before others, is
-    /// dark from the torch on: its light is inside an object there.
-    void find_farthest(double slack);
+    /// Ends the map. A pixel whose first surface is turned away, by more than the share `slack` before others, is dark from the torch
+    /// on: its light is inside an object there.
+    void end(double slack);
     /// What a place between the middles of a pixel and the next ones to the right and below is compared with: the three middles next
     /// to it, between which it lies.
     struct Farthest {
@@ -46,8 +55,14 @@ public:
         /// places away from that one; for others it is the same as of all.
         float without_one = 0.0F;
     };
-    /// Row by row, without the last column and row. Both are less by half of what their middles differ, as on a steep surface, a share
-    /// of `slack` at most.
+    /// At a pixel, not of the last column or row. Both are less by half of what their middles differ, as on a steep surface, a share of
+    /// `slack` at most.
+    [[nodiscard]] Farthest farthest_at(int x, int y) const {
+        const float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_ + x;
+        return farthest_of(row[0], row[1], row[width_], row[width_ + 1], max_share_);
+    }
+    /// Finds all of them, for `farthest`: row by row.
+    void find_farthest();
     [[nodiscard]] std::span<const Farthest> farthest() const { return farthest_; }
 
     /// The nearness of surfaces that are turned away. The first call since `begin` clears it.
@@ -66,6 +81,21 @@ private:
         /// The first column and row whose pixels' middles are not left of it and not above it, within the picture.
         std::uint16_t column = 0, row = 0;
     };
+    /// Of a pixel and the ones to the right, below, and both.
+    [[nodiscard]] static Farthest farthest_of(float a, float b, float c, float d, float max_share) {
+        const float above_far = std::min(a, b), above_near = std::max(a, b);
+        const float below_far = std::min(c, d), below_near = std::max(c, d);
+        const float nearest = std::max(above_near, below_near);
+        const float first = std::min(above_far, below_far);
+        const float second = std::min(std::max(above_far, below_far), std::min(above_near, below_near));
+        const std::uint32_t which = above_far <= below_far ? (a <= b ? 0U : 1U) : (c <= d ? 2U : 3U);
+        constexpr float share_of_range = 0.5F;
+        const auto lower = [&](float farthest) {
+            return farthest - std::min(share_of_range * (nearest - farthest), max_share * farthest);
+        };
+        const auto without = std::bit_cast<std::uint32_t>(lower(second));
+        return {lower(first), std::bit_cast<float>((without & ~3U) | which)};
+    }
     [[nodiscard]] Corner corner_at(const glm::dvec3& place, double metres) const;
     void place_corners(const View& view, std::span<const glm::vec3> positions);
     /// `clockwise`: as the picture is seen.
@@ -73,9 +103,11 @@ private:
     void draw_cut(const View& view, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
     int width_ = 0, height_ = 0;
+    PixelRectangle part_;
     std::vector<float> nearness_, backs_;
     std::vector<Farthest> farthest_;
     bool has_backs_ = false;
+    float max_share_ = 0.0F; ///< the slack
     std::vector<Corner> corners_;
     float *clockwise_ = nullptr, *others_ = nullptr; ///< where the view's triangles go: one of the two above
 };

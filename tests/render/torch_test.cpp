@@ -89,6 +89,10 @@ TEST(Torch, LightsMeshesAsRaysSay) {
 
 TEST(Torch, LightsARasterizedReliefAsRaysSay) {
     check({.name = "raster", .objects = as_one(ball_and_post()), .chosen = {Way::RasterizedRelief}});
+    check({.name = "raster_lens",
+           .objects = as_one(ball_and_post()),
+           .chosen = {Way::RasterizedRelief},
+           .lens = lenses[3]});
 }
 
 TEST(Torch, LightsAReliefOfTheGpuAsRaysSay) {
@@ -320,6 +324,32 @@ TEST(Torch, BetweenTheWallsOfACrateLightsWhatRaysSay) {
         EXPECT_GT(counts.lit, 2000U);
         EXPECT_LE(counts.wrong, (counts.lit + counts.dark) / (way == Way::Mesh ? 20000 : 2000));
     }
+}
+
+/// The processor lights a relief with plain light, the GPU with any other content; here the second stage adds nothing.
+TEST(Torch, LightsAReliefAlikeFromProcessorAndGpu) {
+    Still still(Way::RasterizedRelief);
+    EXPECT_TRUE(still.world.renderer->prepare(
+        scene::with_torches(scene::with_cells(needs_with_reliefs(1, still.table.projector)))));
+    std::mt19937 random(48);
+    std::size_t lit = 0;
+    std::size_t others = 0;
+    for (int pose = 0; pose < 8; ++pose) {
+        still.table.shuffle(random);
+        scene::PlacedTorch torch = seeded_torch(still.table, random, pose);
+        const image::Image8 without = still.lit_by({});
+        const image::Image8 plain = still.lit_by(std::span(&torch, 1));
+        torch.stages[1] = torch.stages[0];
+        torch.stages_at[1].opacity = 0.0F;
+        torch.stage_count = 2;
+        const image::Image8 stages = still.lit_by(std::span(&torch, 1));
+        for (std::size_t k = 0; k < plain.texels.size(); ++k) {
+            lit += stages.texels[k] != without.texels[k] ? 1U : 0U;
+            others += farthest_channel(plain.texels[k], stages.texels[k]) > 1 ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(lit, 5000U);
+    EXPECT_LE(others, lit / 2000) << "of " << lit;
 }
 
 TEST(Torch, AFrameAllocatesNothing) {
