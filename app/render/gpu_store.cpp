@@ -88,7 +88,7 @@ Result<scene::Drawable> GpuStore::upload(const scene::SceneLevel& level, const i
     return keep(std::move(whole));
 }
 
-scene::Drawable GpuStore::keep(LevelUpload upload) {
+scene::Drawable GpuStore::keep(LevelUpload upload, scene::TextureId texture) {
     if (upload.data_.relief && !upload.blocks_) {
         return keep(std::move(upload.data_.relief));
     }
@@ -101,7 +101,12 @@ scene::Drawable GpuStore::keep(LevelUpload upload) {
     }
     meshes_.emplace(id, Mesh{std::move(upload.vertex_array_), std::move(upload.vertices_)});
     const scene::LevelData& data = upload.data_;
-    return {id, {keep(std::move(upload.texels_), data.finest_mip), data.texels_per_box, data.cut_out}};
+    if (!data.texture_of) {
+        texture = keep(std::move(upload.texels_), data.finest_mip);
+    } else if (const auto shared = textures_.find(texture); shared != textures_.end()) {
+        ++shared->second.users;
+    }
+    return {id, {texture, data.texels_per_box, data.cut_out}};
 }
 
 Result<scene::Drawable> GpuStore::upload(std::shared_ptr<const relief::BlockRelief> relief) {
@@ -208,7 +213,9 @@ void GpuStore::release(const scene::Drawable& drawable) {
 }
 
 void GpuStore::release(scene::TextureId texture) {
-    textures_.erase(texture);
+    if (const auto held = textures_.find(texture); held != textures_.end() && --held->second.users == 0) {
+        textures_.erase(held);
+    }
     colours_.erase(texture);
 }
 

@@ -27,8 +27,9 @@ public:
     /// Uploads the part of a level that a scene needs; `texture` is the level's whole texture.
     [[nodiscard]] Result<scene::Drawable> upload(const scene::SceneLevel& level,
                                                  const image::Image8& texture);
-    /// Takes over a level or a relief that has been uploaded piece by piece; its upload must be done.
-    [[nodiscard]] scene::Drawable keep(LevelUpload upload);
+    /// Takes over a level or a relief that has been uploaded piece by piece; its upload must be done. `texture`: the one in the store
+    /// that it shares with another level (LevelData::texture_of); it stays until both are released.
+    [[nodiscard]] scene::Drawable keep(LevelUpload upload, scene::TextureId texture = scene::TextureId::None);
     /// Takes over a relief that is rasterized on the processor; nothing is uploaded.
     [[nodiscard]] scene::Drawable keep(std::shared_ptr<const relief::BlockRelief> relief);
     /// Uploads a relief that the GPU draws.
@@ -58,7 +59,8 @@ public:
     };
     struct Texture {
         gl::GlTexture texels;
-        int finest_mip = 0; ///< mip level of the whole texture that is uploaded as level 0
+        int finest_mip = 0;    ///< mip level of the whole texture that is uploaded as level 0
+        std::size_t users = 1; ///< drawables that it belongs to
     };
     /// As in block_upload.h; the colours are the drawable's texture.
     struct Blocks {

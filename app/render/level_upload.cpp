@@ -41,6 +41,14 @@ Result<void> LevelUpload::go_on(std::uint64_t max_bytes) {
 
 /// Creates the objects and allocates their memory, without copying data.
 Result<void> LevelUpload::begin() {
+    if (!data_.texture_of) {
+        TRY_VOID(begin_texture());
+    }
+    begin_vertices();
+    return {};
+}
+
+Result<void> LevelUpload::begin_texture() {
     const image::Image8& finest = data_.mips.front();
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
@@ -50,6 +58,20 @@ Result<void> LevelUpload::begin() {
                     "render: a texture of {} x {} texels; this driver allows {}: bake with a smaller --size",
                     finest.width * scale, finest.height * scale, limit);
     }
+    texels_ = gl::GlTexture::generate();
+    glBindTexture(GL_TEXTURE_2D, texels_.get());
+    glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(data_.mips.size()), GL_SRGB8_ALPHA8, finest.width,
+                   finest.height);
+    // Each draw uses one mip level, its GL_TEXTURE_BASE_LEVEL: a filter that chooses costs more.
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+    return {};
+}
+
+void LevelUpload::begin_vertices() {
     vertex_array_ = gl::GlVertexArray::generate();
     vertices_ = gl::GlBuffer::generate();
     glBindVertexArray(vertex_array_.get());
@@ -63,17 +85,6 @@ Result<void> LevelUpload::begin() {
                           // OpenGL ES takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                           reinterpret_cast<const void*>(offsetof(pack::PackVertex, uv)));
     glBindVertexArray(0);
-    texels_ = gl::GlTexture::generate();
-    glBindTexture(GL_TEXTURE_2D, texels_.get());
-    glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(data_.mips.size()), GL_SRGB8_ALPHA8, finest.width,
-                   finest.height);
-    // Each draw uses one mip level, its GL_TEXTURE_BASE_LEVEL: a filter that chooses costs more.
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
-    return {};
 }
 
 std::uint64_t LevelUpload::upload_vertices(std::uint64_t max_bytes) {

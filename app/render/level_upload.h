@@ -31,6 +31,8 @@ public:
 private:
     friend class GpuStore;
     [[nodiscard]] Result<void> begin();
+    [[nodiscard]] Result<void> begin_texture();
+    void begin_vertices();
     [[nodiscard]] std::uint64_t upload_vertices(std::uint64_t max_bytes);
     [[nodiscard]] std::uint64_t upload_texels(std::uint64_t max_bytes);
 

@@ -1,6 +1,6 @@
 #include "app/residency/artifact_cache.h"
 
-#include "app/exhibit/languages.h"
+#include "firmware_host/base/spare_memory.h"
 #include "firmware_host/base/standard_error.h"
 
 #include <fmt/format.h>
@@ -15,15 +15,17 @@ namespace frustumscreen::residency {
 
 namespace {
 
-/// Mean size of an artifact's level textures.
+/// Mean size of an artifact's textures.
 std::uint64_t texture_bytes_of(const PreparedArtifact& artifact) {
     std::uint64_t bytes = 0;
+    std::size_t textures = 0;
     for (const scene::LevelData& level : artifact.data) {
+        textures += level.mips.empty() ? 0 : 1;
         for (const image::Image8& mip : level.mips) {
             bytes += mip.texels.size() * sizeof(glm::u8vec4);
         }
     }
-    return bytes / std::max<std::size_t>(artifact.data.size(), 1);
+    return bytes / std::max<std::size_t>(textures, 1);
 }
 
 } // namespace
@@ -77,69 +79,6 @@ Result<void> ArtifactCache::upload_first(render::GpuStore& store) {
 
 ArtifactCache::~ArtifactCache() = default;
 
-std::size_t ArtifactCache::text_item(std::size_t artifact, TextPart part, std::size_t language) const {
-    return first_items_[artifact] + 1 + text_parts * language + static_cast<std::size_t>(part);
-}
-
-void ArtifactCache::add_text(Queue& queue, std::size_t artifact, TextPart part,
-                             std::string_view language) const {
-    const std::vector<std::string>& languages = known(artifact).texts.entry.languages;
-    if (languages.empty()) {
-        return;
-    }
-    const std::size_t item = text_item(artifact, part, exhibit::caption_for(language, languages));
-    if (records_[item].bytes > 0) {
-        queue.add(item);
-    }
-}
-
-void ArtifactCache::add_pages(Queue& queue, std::size_t artifact) const {
-    const RunCells* const cells = find_cells(artifact);
-    const std::size_t end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
-    const auto pages = std::span(items_).first(end).subspan(first_pages_[artifact]);
-    for (const std::size_t place :
-         cells != nullptr ? cells->wanted_pages() : std::span<const std::size_t>()) {
-        const auto found =
-            std::lower_bound(pages.begin(), pages.end(), place,
-                             [](const Item& item, std::size_t wanted) { return item.page->place < wanted; });
-        queue.add(first_pages_[artifact] + static_cast<std::size_t>(found - pages.begin()));
-    }
-}
-
-/// The artifacts shown and waited for. Captions come first, because they are small and are shown before their
-/// artifact.
-ArtifactCache::Queue ArtifactCache::needed(const CacheRequest& request) const {
-    Queue needed;
-    needed.add(levels_item(request.shown));
-    add_text(needed, request.shown, TextPart::Caption, request.shown_language);
-    if (!request.wanted.empty()) {
-        add_text(needed, request.wanted.front(), TextPart::Caption, request.language);
-        needed.add(levels_item(request.wanted.front()));
-    }
-    add_text(needed, request.shown, TextPart::NarrationSequencer, request.shown_language);
-    if (!request.wanted.empty()) {
-        add_text(needed, request.wanted.front(), TextPart::NarrationSequencer, request.language);
-    }
-    return needed;
-}
-
-/// The chosen artifact's captions in the other languages come last; they let the language button respond at
-/// once.
-ArtifactCache::Queue ArtifactCache::wanted(const CacheRequest& request) const {
-    Queue wanted;
-    add_pages(wanted, request.shown);
-    for (std::size_t k = 1; k < request.wanted.size(); ++k) {
-        wanted.add(levels_item(request.wanted[k]));
-        add_text(wanted, request.wanted[k], TextPart::Caption, request.language);
-    }
-    if (!request.wanted.empty()) {
-        for (const std::string& language : known(request.wanted.front()).texts.entry.languages) {
-            add_text(wanted, request.wanted.front(), TextPart::Caption, language);
-        }
-    }
-    return wanted;
-}
-
 Result<ArtifactReader::Prepared> ArtifactCache::prepare(std::size_t item,
                                                         const ArtifactReader::GivenUp& given_up) const {
     const Item& of = items_[item];
@@ -155,28 +94,32 @@ Result<ArtifactReader::Prepared> ArtifactCache::prepare(std::size_t item,
 
 void ArtifactCache::start(const scene::FrameCost& cost, const geometry::PropShape& prop,
                           const scene::PlanView& view, const glm::dvec3& eye_m) {
+    return_spare_memory(); // of reading the first artifact, and of a software driver that drew all of its levels
     if (std::none_of(records_.begin(), records_.end(),
                      [](const ResidentItem& item) { return !item.loaded && item.bytes > 0; })) {
         return;
     }
-    reader_ = std::make_unique<ArtifactReader>(
-        [this, cost, prop, view, eye_m](std::size_t item, const ArtifactReader::GivenUp& given_up) {
-            Result<ArtifactReader::Prepared> prepared = prepare(item, given_up);
-            if (!prepared && !given_up()) {
-                say_left_out(item, prepared.error().message);
+    reader_ = std::make_unique<ArtifactReader>([this, cost, prop, view, eye_m, after_levels = false](
+                                                   std::size_t item,
+                                                   const ArtifactReader::GivenUp& given_up) mutable {
+        if (std::exchange(after_levels, items_[item].is_levels())) {
+            return_spare_memory(); // of the levels read before
+        }
+        Result<ArtifactReader::Prepared> prepared = prepare(item, given_up);
+        if (!prepared && !given_up()) {
+            say_left_out(item, prepared.error().message);
+        }
+        if (PreparedArtifact* const levels = prepared ? std::get_if<PreparedArtifact>(&*prepared) : nullptr) {
+            scene::PlanView seen = view;
+            seen.eyes_m = std::span(&eye_m, 1);
+            seen.light = known(items_[item].artifact).plan.light;
+            levels->levels.start(cost, prop, seen);
+            if (levels->cells) {
+                levels->cells->start(cost);
             }
-            if (PreparedArtifact* const levels =
-                    prepared ? std::get_if<PreparedArtifact>(&*prepared) : nullptr) {
-                scene::PlanView seen = view;
-                seen.eyes_m = std::span(&eye_m, 1);
-                seen.light = known(items_[item].artifact).plan.light;
-                levels->levels.start(cost, prop, seen);
-                if (levels->cells) {
-                    levels->cells->start(cost);
-                }
-            }
-            return prepared;
-        });
+        }
+        return prepared;
+    });
 }
 
 void ArtifactCache::step(render::GpuStore& store, const CacheRequest& request) {
@@ -236,21 +179,6 @@ bool ArtifactCache::release_some(render::GpuStore& store) {
     return false;
 }
 
-void ArtifactCache::note_shown(const CacheRequest& request) {
-    if (shown_ != request.shown) {
-        shown_ = request.shown;
-        ++shows_;
-    }
-    Queue shown;
-    shown.add(levels_item(request.shown));
-    add_text(shown, request.shown, TextPart::Caption, request.shown_language);
-    add_text(shown, request.shown, TextPart::NarrationSequencer, request.shown_language);
-    add_pages(shown, request.shown);
-    for (const std::size_t item : shown.items()) {
-        records_[item].last_shown = shows_;
-    }
-}
-
 void ArtifactCache::receive(std::size_t item, Result<ArtifactReader::Prepared> prepared) {
     if (records_[item].loaded || records_[item].left_out) {
         return;
@@ -260,6 +188,7 @@ void ArtifactCache::receive(std::size_t item, Result<ArtifactReader::Prepared> p
         return;
     }
     if (auto* const levels = std::get_if<PreparedArtifact>(&*prepared)) {
+        expect_pages(items_[item].artifact, *levels);
         loaded_[item] = std::make_unique<Loaded>(LoadedLevels(std::move(*levels)));
     } else if (auto* const page = std::get_if<PreparedPage>(&*prepared)) {
         if (this->levels(items_[item].artifact) == nullptr) {
@@ -272,6 +201,15 @@ void ArtifactCache::receive(std::size_t item, Result<ArtifactReader::Prepared> p
     }
     records_[item].bytes = std::visit([](const auto& each) { return each.bytes(); }, *loaded_[item]);
     records_[item].loaded = true;
+}
+
+void ArtifactCache::expect_pages(std::size_t artifact, const PreparedArtifact& levels) {
+    const std::size_t end = artifact + 1 < size() ? first_items_[artifact + 1] : items_.size();
+    for (std::size_t item = first_pages_[artifact]; levels.cells && item < end; ++item) {
+        records_[item].bytes =
+            expected_page_bytes(*known(artifact).world, *items_[item].page,
+                                levels.cells->page_texture_bytes(items_[item].page->place));
+    }
 }
 
 bool ArtifactCache::arrives(std::size_t item) const {

@@ -6,6 +6,7 @@
 #include "app/scene/cell_plan.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -16,7 +17,8 @@ namespace {
 
 /// Reads a level of a region alone.
 Result<PreparedLevel> read_level(const std::filesystem::path& file, const KnownWorld& known,
-                                 const KnownCell& cell, std::uint32_t level) {
+                                 const KnownCell& cell, std::uint32_t level,
+                                 double max_samples_per_box = std::numeric_limits<double>::infinity()) {
     TRY(const pack::VerifiedPack pack,
         pack::load_cell(file, known.world.cells[cell.cell],
                         [&](const pack::PackOutline& own) -> Result<std::vector<std::uint32_t>> {
@@ -27,17 +29,18 @@ Result<PreparedLevel> read_level(const std::filesystem::path& file, const KnownW
                             }
                             return std::vector{level};
                         }));
-    return prepare_level(*pack, level, cell.plan);
+    return prepare_level(*pack, level, cell.plan, {}, max_samples_per_box);
 }
 
-/// Reads the coarsest level; the finer ones are pages.
+/// Reads the stand-in; all levels are pages.
 Result<void> prepare_region(const std::filesystem::path& file, const KnownWorld& known, const KnownCell& cell,
-                            const std::function<bool()>& given_up, PreparedCells& cells) {
+                            double texels_per_m, const std::function<bool()>& given_up,
+                            PreparedCells& cells) {
     if (given_up()) {
         return bad_input("show.cells_not_wanted", "not wanted any more");
     }
-    const std::vector<scene::QualityLevel> ways = ways_of(cell.plan);
-    for (const scene::QualityLevel& way : std::span(ways).first(ways.size() - 1)) {
+    const std::vector<scene::QualityLevel> ways = region_ways_of(cell.plan);
+    for (const scene::QualityLevel& way : ways) {
         PreparedLevel& page = cells.levels.emplace_back();
         page.use.level = way.level;
         page.use.triangles = cell.outline.levels[way.level].triangles;
@@ -45,9 +48,10 @@ Result<void> prepare_region(const std::filesystem::path& file, const KnownWorld&
         page.box_size = cell.outline.description.box_size;
         page.samples = cell.outline.description.samples;
     }
-    TRY(PreparedLevel coarsest, read_level(file, known, cell, ways.back().level));
-    cells.levels.push_back(std::move(coarsest));
-    cells.options.push_back(ways.size());
+    TRY(PreparedLevel stand_in,
+        read_level(file, known, cell, ways.back().level, texels_per_m * cell.plan.metres_per_box));
+    cells.levels.push_back(std::move(stand_in));
+    cells.options.push_back(ways.size() + 1);
     return {};
 }
 
@@ -60,6 +64,7 @@ Result<void> prepare_cell(const std::filesystem::path& file, const KnownWorld& k
                          "the pack has changed since the exhibit was started; start it again");
     }
     const scene::ScenePlan& plan = cell.plan;
+    const std::size_t first = cells.levels.size();
     std::map<std::uint32_t, std::shared_ptr<const relief::BlockRelief>>
         reliefs; // both ways of drawing share one
     const std::vector<scene::QualityLevel> ways = ways_of(plan);
@@ -68,7 +73,11 @@ Result<void> prepare_cell(const std::filesystem::path& file, const KnownWorld& k
             return bad_input("show.cells_not_wanted", "not wanted any more");
         }
         if (!way.relief) {
-            cells.levels.push_back(prepare_level(*pack, way.level, plan));
+            PreparedLevel level =
+                prepare_level(*pack, way.level, plan, std::span(cells.levels).subspan(first));
+            level.data.texture_of =
+                level.data.texture_of ? std::optional(first + *level.data.texture_of) : std::nullopt;
+            cells.levels.push_back(std::move(level));
             continue;
         }
         const auto place =
@@ -100,15 +109,23 @@ std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan) {
     return ways;
 }
 
+std::vector<scene::QualityLevel> region_ways_of(const scene::ScenePlan& plan) {
+    std::vector<scene::QualityLevel> ways = ways_of(plan);
+    std::stable_sort(
+        ways.begin(), ways.end(),
+        [](const scene::QualityLevel& a, const scene::QualityLevel& b) { return a.level > b.level; });
+    return ways;
+}
+
 std::vector<PageName> pages_of(const KnownWorld& known) {
     std::vector<PageName> pages;
     std::size_t place = 0;
     for (std::size_t k = 0; known.is_site && k < known.drawn.size(); ++k) {
-        const std::vector<scene::QualityLevel> ways = ways_of(known.drawn[k].plan);
-        for (std::size_t way = 0; way + 1 < ways.size(); ++way) {
+        const std::vector<scene::QualityLevel> ways = region_ways_of(known.drawn[k].plan);
+        for (std::size_t way = 0; way < ways.size(); ++way) {
             pages.push_back({k, ways[way].level, place + way});
         }
-        place += ways.size();
+        place += ways.size() + 1;
     }
     return pages;
 }
@@ -180,10 +197,10 @@ scene::RenderNeeds needs_of(const KnownWorld& world, const scene::RenderNeeds& w
 }
 
 Result<PreparedCells> prepare_cells(const std::filesystem::path& file, const KnownWorld& known,
-                                    const std::function<bool()>& given_up) {
+                                    const std::function<bool()>& given_up, double texels_per_m) {
     PreparedCells cells;
     for (const KnownCell& cell : known.drawn) {
-        TRY_VOID(known.is_site ? prepare_region(file, known, cell, given_up, cells)
+        TRY_VOID(known.is_site ? prepare_region(file, known, cell, texels_per_m, given_up, cells)
                                : prepare_cell(file, known, cell, given_up, cells));
     }
     return cells;

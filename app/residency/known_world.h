@@ -1,8 +1,8 @@
 /// The cells of an artifact that its behaviours move, or that are drawn at rest: how each is drawn, before any of it is
 /// loaded, and their levels, read and ready to upload.
 ///
-/// Site     of a region, only the coarsest level is read with its artifact; the others are pages, each read when it is wanted
-///          (RunCells::wanted_pages).
+/// Site     of a region, the coarsest level is read with its artifact, with no more of its texture than the miniature has there: its stand-in. All of
+///          its levels are pages, each read with the whole texture when it is wanted (RunCells::wanted_pages).
 /// Memory   before the artifact is about to be shown, only the manifests: no curves. While cells are prepared, one cell's pack at a time.
 /// Threads  pure except for reading the file; any.
 /// Errors   as load_pack and plan_cell; a pack that has changed since its plan was made.
@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -53,12 +54,14 @@ open_cells(const settings::Settings& settings, const std::filesystem::path& file
 
 /// The ways in which a quality level draws a cell, each once, best first.
 [[nodiscard]] std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan);
+/// The same for a region of a site, finest first: which is good enough depends on the zoom.
+[[nodiscard]] std::vector<scene::QualityLevel> region_ways_of(const scene::ScenePlan& plan);
 
 /// A level of a region, read after its artifact.
 struct PageName {
     std::size_t drawn = 0;   ///< index into KnownWorld::drawn
     std::uint32_t level = 0; ///< of the region's pack
-    std::size_t place = 0;   ///< index into PreparedCells::levels
+    std::size_t place = 0;   ///< index into PreparedCells::levels; the region's stand-in follows its pages
 };
 /// None for a world that is no site.
 [[nodiscard]] std::vector<PageName> pages_of(const KnownWorld& known);
@@ -74,8 +77,11 @@ struct PreparedCells {
     std::vector<std::size_t> options; ///< number of levels of each of KnownWorld::drawn
     std::vector<PreparedLevel> levels;
 };
-/// `given_up`: asked between two levels; true cancels the preparation.
-[[nodiscard]] Result<PreparedCells> prepare_cells(const std::filesystem::path& file, const KnownWorld& known,
-                                                  const std::function<bool()>& given_up);
+/// `given_up`: asked between two levels; true cancels the preparation. `texels_per_m`: of the whole artifact's texture, on its surface in the
+/// prop; a region's stand-in has no finer one.
+[[nodiscard]] Result<PreparedCells>
+prepare_cells(const std::filesystem::path& file, const KnownWorld& known,
+              const std::function<bool()>& given_up,
+              double texels_per_m = std::numeric_limits<double>::infinity());
 
 } // namespace frustumscreen::residency

@@ -6,7 +6,9 @@ namespace frustumscreen::residency {
 
 LoadedLevels::LoadedLevels(PreparedArtifact prepared) : artifact(std::move(prepared)) {
     uploads_.reserve(artifact.data.size());
+    textures_.reserve(artifact.data.size());
     for (scene::LevelData& data : artifact.data) {
+        texture_of_.push_back(data.texture_of);
         uploads_.emplace_back(std::move(data));
     }
     artifact.data.clear();
@@ -17,7 +19,10 @@ Result<void> LoadedLevels::upload(render::GpuStore& store, std::uint64_t max_byt
     TRY_VOID(level.go_on(max_bytes));
     if (level.done()) {
         const std::size_t levels = artifact.levels.uses().size();
-        const scene::Drawable drawable = store.keep(std::move(level));
+        const std::optional<std::size_t> shared = texture_of_[uploaded_];
+        const scene::Drawable drawable =
+            store.keep(std::move(level), shared ? textures_[*shared] : scene::TextureId::None);
+        textures_.push_back(drawable.material.texture);
         if (uploaded_ < levels) {
             artifact.levels.give(uploaded_, drawable, store);
         } else {

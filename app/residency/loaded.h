@@ -38,7 +38,9 @@ public:
 
 private:
     std::vector<render::LevelUpload> uploads_;
-    std::size_t uploaded_ = 0; ///< levels, also of cells, that are in the store
+    std::vector<std::optional<std::size_t>> texture_of_; ///< LevelData::texture_of, by upload
+    std::size_t uploaded_ = 0;                           ///< levels, also of cells, that are in the store
+    std::vector<scene::TextureId> textures_;             ///< theirs
 };
 
 /// A page of a site (RunCells), which its artifact's cells draw.

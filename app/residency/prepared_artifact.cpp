@@ -6,6 +6,8 @@
 #include "app/scene/exposure.h"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace frustumscreen::residency {
@@ -43,25 +45,36 @@ std::vector<std::uint32_t> read_beside(const KnownArtifact& known) {
     return levels;
 }
 
-std::uint64_t expected_bytes(const pack::LevelOutline& level, std::uint64_t texture_bytes) {
+/// Without its texture.
+std::uint64_t expected_bytes(const pack::LevelOutline& level) {
     constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
     constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float); // indices and plane
-    return level.vertices * per_vertex + level.triangles * per_triangle + texture_bytes;
+    return level.vertices * per_vertex + level.triangles * per_triangle;
 }
 
-/// The memory for the levels and reliefs that a plan reads.
+/// The memory for the levels and reliefs that a plan reads. Levels share a texture.
 std::uint64_t expected_bytes(const pack::PackOutline& outline, const scene::ScenePlan& plan,
                              std::uint64_t texture_bytes) {
     std::uint64_t bytes = 0;
     for (const std::uint32_t number : plan.levels) {
-        bytes += expected_bytes(outline.levels[number], texture_bytes);
+        bytes += expected_bytes(outline.levels[number]);
     }
+    bytes += plan.levels.empty() ? 0 : texture_bytes;
     for (std::size_t place = 0; place < plan.reliefs.size(); ++place) {
         const std::uint64_t relief = plan.reliefs[place].bytes;
         constexpr std::uint64_t more_in_memory = 2; // in memory a cell's corners are stored together
         bytes += more_in_memory * relief + (draws_relief(plan, place, true) ? relief : 0);
     }
     return bytes;
+}
+
+/// The finest of the mesh levels'; infinite if there are none.
+double texels_per_m(std::span<const PreparedLevel> levels, const scene::ScenePlan& plan) {
+    double texels = 0.0;
+    for (const PreparedLevel& level : levels) {
+        texels = std::max(texels, level.data.texels_per_box / plan.metres_per_box);
+    }
+    return texels > 0.0 ? texels : std::numeric_limits<double>::infinity();
 }
 
 } // namespace
@@ -89,7 +102,7 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
             return bad_input("show.artifact_not_wanted", "not wanted any more");
         }
         TRY(const pack::VerifiedPack pack, read(number));
-        levels.push_back(prepare_level(*pack, number, plan));
+        levels.push_back(prepare_level(*pack, number, plan, levels));
     }
     for (const std::uint32_t number : read_beside(known)) {
         if (given_up()) {
@@ -116,14 +129,17 @@ Result<PreparedArtifact> prepare_artifact(const KnownArtifact& known, const std:
     PreparedCells cells;
     if (known.world) {
         TRY(const pack::PackWorld world, pack::load_world(known.file));
-        TRY(cells, prepare_cells(known.file, *known.world, given_up));
+        TRY(cells, prepare_cells(known.file, *known.world, given_up, texels_per_m(levels, plan)));
         made.cells = std::make_unique<RunCells>(world, *known.world, plan, levels, cells, deadline_ms);
         made.cells->add_states(world, known.states);
     }
     for (std::vector<PreparedLevel>* const prepared : {&levels, &cells.levels}) {
+        std::vector<std::size_t> places; // in `made.data`
         for (PreparedLevel& level : *prepared) {
+            places.push_back(made.data.size());
             if (level.triangles || level.data.relief) { // else it is a page
-                made.data.push_back(std::move(level.data));
+                scene::LevelData& data = made.data.emplace_back(std::move(level.data));
+                data.texture_of = data.texture_of ? std::optional(places[*data.texture_of]) : std::nullopt;
             }
         }
     }
@@ -141,7 +157,7 @@ Result<TextPictures> prepare_texts(const KnownArtifact& known, TextPart part, st
 
 std::uint64_t expected_page_bytes(const KnownWorld& world, const PageName& page,
                                   std::uint64_t texture_bytes) {
-    return expected_bytes(world.drawn[page.drawn].outline.levels[page.level], texture_bytes);
+    return expected_bytes(world.drawn[page.drawn].outline.levels[page.level]) + texture_bytes;
 }
 
 std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_bytes) {
@@ -149,7 +165,7 @@ std::uint64_t expected_bytes(const KnownArtifact& known, std::uint64_t texture_b
     if (known.world) {
         for (const KnownCell& cell : known.world->drawn) {
             bytes += known.world->is_site
-                         ? expected_bytes(cell.outline.levels[ways_of(cell.plan).back().level], texture_bytes)
+                         ? expected_bytes(cell.outline.levels[region_ways_of(cell.plan).back().level])
                          : expected_bytes(cell.outline, cell.plan, texture_bytes);
         }
     }

@@ -15,9 +15,9 @@
 /// Site     of a site (pack_site.h) a part can be shown large (site_view.h). Then the cells are drawn, cut off by the prop's faces;
 ///          those that no face shows are left out. An error of a cell grows with the zoom, so finer levels come by the rule of cells that
 ///          are drawn at rest. The picture fades from the whole to the cells; the caller leaves the zoom at 1 for as long.
-/// Pages    of a site's region only the coarsest level comes with the artifact. The finer ones are pages: `wanted_pages` names those that
-///          the place needs, then those of the places in windows; the caller gives them when they are in the store, and a cell fades to them. Until then, and where the
-///          memory is too small, the next coarser level that is there is drawn.
+/// Pages    of a site's region only its stand-in comes with the artifact (known_world.h). Its levels are pages: `wanted_pages` names those
+///          that the place needs, then those of the places in windows; the caller gives them when they are in the store, and a cell fades
+///          to them. Until then, and where the memory is too small, the next coarser level that is there is drawn, at last the stand-in.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
 /// Errors   none.
@@ -39,6 +39,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -66,6 +67,8 @@ public:
     /// Pages for the next frames, by PreparedCells::levels, the most urgent first, also those that are there: of the regions that the
     /// latest picture shows, largest first; then of the place that is travelled to and of its neighbours; then of windows.
     [[nodiscard]] std::span<const std::size_t> wanted_pages() const { return wanted_; }
+    /// Bytes of the texture that a page brings.
+    [[nodiscard]] std::uint64_t page_texture_bytes(std::size_t place) const;
     /// A page is in the store.
     void give_page(std::size_t place, const PreparedLevel& level, const scene::Drawable& drawable,
                    const render::GpuStore& store);
@@ -156,12 +159,15 @@ private:
         scene::SeenLevel seen;
         scene::PlacedLevel placed;
         double worst_mm = 0.0;
-        double triangles = 0.0; ///< or blocks
-        bool is_enough = false; ///< within the tolerance, at the zoom of this frame
-        double enough_to = 0.0; ///< of a site: the largest zoom at which it is
-        bool there = true;      ///< false: a page that is not in the store
-        bool leaves = false;    ///< a page that is not to be drawn any more
-        int kept_out = 0;       ///< steps for which no window takes it again
+        double triangles = 0.0;  ///< or blocks
+        bool is_enough = false;  ///< within the tolerance, at the zoom of this frame
+        double enough_to = 0.0;  ///< of a site: the largest zoom at which its surface is within the tolerance
+        double sharp_from = 0.0; ///< of a site: below, the stand-in with the same surface takes its place
+        double sharp_to =
+            std::numeric_limits<double>::infinity(); ///< the largest zoom at which its texture is fine enough
+        bool there = true;                           ///< false: a page that is not in the store
+        bool leaves = false;                         ///< a page that is not to be drawn any more
+        int kept_out = 0;                            ///< steps for which no window takes it again
     };
     struct Cell {
         std::size_t number = 0;       ///< index into the player's cells
@@ -186,6 +192,13 @@ private:
     }
     /// The option drawn of a cell in place of the wanted one: the same if it is there.
     [[nodiscard]] std::size_t nearest_there(const Cell& cell) const;
+    /// False: its stand-in, or the page of the same level, is drawn at this zoom.
+    [[nodiscard]] static bool is_sharp(const Option& option, double zoom) {
+        return option.sharp_from < zoom && zoom <= option.sharp_to;
+    }
+    [[nodiscard]] static bool is_good(const Option& option, double zoom) {
+        return is_sharp(option, zoom) && zoom <= option.enough_to;
+    }
     /// The quickest option of a cell that is good enough at a zoom.
     [[nodiscard]] std::size_t option_at(std::size_t cell, double zoom) const;
     /// Sets `wanted_`.

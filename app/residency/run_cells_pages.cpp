@@ -27,8 +27,13 @@ std::size_t RunCells::nearest_there(const Cell& cell) const {
     if (cell.shown < cell.wanted && can_show(cell.shown)) {
         return cell.shown; // it is finer than the wanted one
     }
+    for (std::size_t option = cell.wanted; options_[cell.first + cell.wanted].is_enough && option-- > 0;) {
+        if (can_show(option) && options_[cell.first + option].is_enough) {
+            return option;
+        }
+    }
     std::size_t option = cell.wanted;
-    while (!can_show(option)) { // the coarsest is always there
+    while (!can_show(option)) { // the stand-in is always there
         ++option;
     }
     return option;
@@ -44,7 +49,7 @@ void RunCells::want_page(std::size_t place) {
 
 std::size_t RunCells::option_at(std::size_t cell, double zoom) const {
     std::size_t option = end_of(cell) - 1;
-    while (option > cells_[cell].first && options_[option].enough_to < zoom) {
+    while (option > cells_[cell].first && !is_good(options_[option], zoom)) {
         --option;
     }
     return option;
@@ -123,6 +128,17 @@ void RunCells::want_pages() {
     for (std::size_t k = 0; k < in_windows_count_; ++k) {
         want_pages_around(in_windows_[k]);
     }
+}
+
+std::uint64_t RunCells::page_texture_bytes(std::size_t place) const {
+    const auto after = std::upper_bound(cells_.begin(), cells_.end(), place,
+                                        [](std::size_t p, const Cell& cell) { return p < cell.first; });
+    const LevelUse& stand_in = uses_[end_of(static_cast<std::size_t>(after - cells_.begin()) - 1) - 1];
+    constexpr std::uint64_t per_texel = sizeof(glm::u8vec4);
+    const auto texels =
+        static_cast<std::uint64_t>(stand_in.texture.x) * static_cast<std::uint64_t>(stand_in.texture.y)
+        << static_cast<unsigned>(2 * stand_in.finest_mip);
+    return per_texel * texels * 4 / 3; // with its mip levels
 }
 
 void RunCells::give_page(std::size_t place, const PreparedLevel& level, const scene::Drawable& drawable,

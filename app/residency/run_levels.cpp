@@ -1,7 +1,6 @@
 #include "app/residency/run_levels.h"
 
 #include "app/geometry/time_curves.h"
-#include "app/render/block_upload.h"
 #include "app/render/read_back.h"
 #include "app/scene/torch_plan.h"
 #include "firmware_host/base/quantile.h"
@@ -60,64 +59,17 @@ std::string_view literal_of(const scene::QualityLevel& quality_level) {
 
 } // namespace
 
-PreparedLevel prepare_level(const pack::Pack& pack, std::uint32_t level, const scene::ScenePlan& plan) {
-    const scene::SceneLevel kept = scene::scene_level(pack, level, plan);
-    const image::Image8& texture = pack.textures[kept.mesh.texture];
-    PreparedLevel made;
-    made.use = {.level = level,
-                .triangles = kept.mesh.indices.size() / 3,
-                .unseen_triangles = kept.unseen_triangles,
-                .unseen_clusters = kept.unseen_clusters,
-                .texture =
-                    glm::max(glm::ivec2(1), glm::ivec2(texture.width, texture.height) >> kept.finest_mip),
-                .finest_mip = kept.finest_mip,
-                .planned_gpu_bytes = scene::gpu_bytes(kept, texture),
-                .gpu_bytes = 0};
-    made.seen = plan.seen[level];
-    made.box_size = pack.box_size;
-    made.samples = pack.samples;
-    made.triangles = std::make_shared<scene::LevelTriangles>(scene::triangles_of(kept.mesh, pack.box_size));
-    made.needs = scene::needs_of(plan, kept);
-    made.left_out = scene::left_out_of(plan, kept, texture);
-    made.data = scene::level_data(kept, texture);
-    return made;
-}
-
-bool draws_relief(const scene::ScenePlan& plan, std::size_t place, bool on_gpu) {
-    const scene::QualityLevel shown{
-        .level = plan.reliefs[place].texels, .samples = 1, .enough = false, .relief = true, .on_gpu = on_gpu};
-    return std::any_of(
-        plan.quality_levels.begin(), plan.quality_levels.end(),
-        [&](const scene::QualityLevel& quality_level) { return quality_level.shows_as(shown); });
-}
-
-PreparedLevel prepare_relief(const pack::PackDescription& pack, std::size_t place,
-                             std::shared_ptr<const relief::BlockRelief> relief, bool on_gpu,
-                             const scene::ScenePlan& plan) {
-    PreparedLevel made;
-    made.use.level = plan.reliefs[place].texels;
-    made.use.blocks = relief->blocks.size();
-    made.use.on_gpu = on_gpu;
-    made.use.planned_gpu_bytes = on_gpu ? render::gpu_bytes(*relief) : 0;
-    made.seen = plan.seen_reliefs[place];
-    made.box_size = pack.box_size;
-    made.samples = pack.samples;
-    made.needs = plan.needs;
-    made.data.relief = std::move(relief);
-    made.data.on_gpu = on_gpu;
-    return made;
-}
-
 RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double deadline_ms,
                      std::span<const PreparedLevel> levels)
     : technique_(std::move(technique)), quality_levels_(plan.quality_levels), deadline_ms_(deadline_ms),
       governor_(quality_levels_, std::vector<scene::QualityLevelTime>(quality_levels_.size()), deadline_ms) {
-    std::size_t indices = 0;
+    std::array<std::size_t, 2> largest{}; // one fades to the other
     for (const PreparedLevel& level : levels) {
         uses_.push_back(level.use);
         left_out_.insert(left_out_.end(), level.left_out.begin(), level.left_out.end());
         needs_ = scene::united(needs_, level.needs);
-        indices += level.triangles ? level.triangles->indices.size() : 0;
+        largest.front() = std::max(largest.front(), level.triangles ? level.triangles->indices.size() : 0);
+        std::sort(largest.begin(), largest.end());
         levels_.push_back({scene::QualityLevel{.level = level.use.level,
                                                .samples = 1,
                                                .enough = false,
@@ -133,6 +85,7 @@ RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double
                                               .relief = level.data.relief,
                                               .on_gpu = level.data.on_gpu}});
     }
+    const std::size_t indices = largest[0] + largest[1];
     constexpr std::size_t max_parts = 2 + max_marks;
     parts_.reserve(max_parts);
     for (std::size_t eye = 0; eye < plan.eyes; ++eye) {
@@ -146,7 +99,7 @@ RunLevels::RunLevels(std::string technique, const scene::ScenePlan& plan, double
 
 void RunLevels::give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store) {
     levels_[place].placed.drawable = drawable;
-    uses_[place].gpu_bytes = store.bytes(drawable);
+    note_gpu_bytes(store, drawable, uses_[place]);
 }
 
 Result<void> RunLevels::add_layer(render::GpuStore& store, const ReadLayer& layer) {
@@ -190,16 +143,19 @@ Result<RunLevels> RunLevels::upload(const pack::Pack& pack, const scene::ScenePl
                                     std::string technique, double deadline_ms, render::GpuStore& store) {
     std::vector<PreparedLevel> prepared;
     for (const std::uint32_t level : plan.levels) {
-        prepared.push_back(prepare_level(pack, level, plan));
+        prepared.push_back(prepare_level(pack, level, plan, prepared));
     }
     RunLevels made(std::move(technique), plan, deadline_ms, prepared);
     for (std::size_t place = 0; place < prepared.size(); ++place) {
+        const std::optional<std::size_t> shared = prepared[place].data.texture_of;
         render::LevelUpload upload(std::move(prepared[place].data));
         if (Result<void> done = upload.go_on(); !done) {
             made.release(store);
             return tl::unexpected<Error>(done.error());
         }
-        made.give(place, store.keep(std::move(upload)), store);
+        const scene::TextureId texture =
+            shared ? made.levels_[*shared].placed.drawable.material.texture : scene::TextureId::None;
+        made.give(place, store.keep(std::move(upload), texture), store);
     }
     return made;
 }

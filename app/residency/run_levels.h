@@ -22,6 +22,7 @@
 #include "firmware_host/base/time.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,10 +42,11 @@ struct LevelUse {
     glm::ivec2 texture{0, 0}; ///< texels of the finest mip level kept
     int finest_mip = 0;
     std::uint64_t planned_gpu_bytes = 0;
-    std::uint64_t gpu_bytes = 0; ///< as the driver reports
+    std::uint64_t gpu_bytes = 0; ///< as the driver reports; of a texture that levels share, the first one's
     std::size_t blocks = 0;      ///< of a relief, for which only the fields of GPU memory above apply;
                                  ///< otherwise 0
     bool on_gpu = false;         ///< the GPU draws the relief
+    bool shares_texture = false; ///< with a level before it, which has its bytes
 };
 
 /// The level that is being drawn.
@@ -71,10 +73,19 @@ struct PreparedLevel {
     scene::RenderNeeds needs;
     std::vector<scene::LeftOut> left_out;
     scene::LevelData data;
+    std::size_t texture = 0; ///< of the pack; not for a relief
+    /// Times its size in the plan up to which the kept part of its texture shows as much as all of it.
+    double sharp_to = std::numeric_limits<double>::infinity();
 };
-/// `level`: one of the plan's. Pure; slow.
-[[nodiscard]] PreparedLevel prepare_level(const pack::Pack& pack, std::uint32_t level,
-                                          const scene::ScenePlan& plan);
+/// `level`: one of the plan's; `before`: other levels of the pack, which are uploaded before it: it shares a texture of theirs, if it can
+/// (LevelData::texture_of, an index into `before`). `max_samples_per_box`: finer mip levels than a picture with so many samples along a box
+/// unit needs are left out. Pure; slow.
+[[nodiscard]] PreparedLevel
+prepare_level(const pack::Pack& pack, std::uint32_t level, const scene::ScenePlan& plan,
+              std::span<const PreparedLevel> before = {},
+              double max_samples_per_box = std::numeric_limits<double>::infinity());
+/// What a level that is in the store takes of it.
+void note_gpu_bytes(const render::GpuStore& store, const scene::Drawable& drawable, LevelUse& use);
 /// True if a quality level of the plan draws the relief with index `place` in this way.
 [[nodiscard]] bool draws_relief(const scene::ScenePlan& plan, std::size_t place, bool on_gpu);
 /// `place`: index into the plan's reliefs; `relief`: its data; `on_gpu`: the GPU draws it.

@@ -6,14 +6,18 @@
 
 namespace frustumscreen::scene {
 
+LevelData mesh_data(const SceneLevel& level) {
+    return {.vertices = level.mesh.vertices,
+            .mips = {},
+            .finest_mip = level.finest_mip,
+            .texels_per_box = level.texels_per_box,
+            .cut_out = level.cut_out,
+            .relief = {},
+            .on_gpu = false};
+}
+
 LevelData level_data(const SceneLevel& level, const image::Image8& texture) {
-    LevelData data{.vertices = level.mesh.vertices,
-                   .mips = {},
-                   .finest_mip = level.finest_mip,
-                   .texels_per_box = level.texels_per_box,
-                   .cut_out = level.cut_out,
-                   .relief = {},
-                   .on_gpu = false};
+    LevelData data = mesh_data(level);
     image::Image8 mip = level.finest_mip > 0 ? image::half_size(texture) : texture;
     for (int k = 1; k < level.finest_mip; ++k) {
         mip = image::half_size(mip);

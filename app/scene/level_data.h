@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace frustumscreen::scene {
@@ -20,7 +21,9 @@ namespace frustumscreen::scene {
 struct LevelData {
     std::vector<pack::PackVertex> vertices;
     std::vector<image::Image8> mips; ///< finest first; only the levels to upload
-    int finest_mip = 0;              ///< level of the whole texture that `mips` begins with
+    /// An earlier one of the levels that are uploaded one after another, whose texture is this one's too; then there are no `mips`.
+    std::optional<std::size_t> texture_of{};
+    int finest_mip = 0; ///< level of the whole texture that `mips` begins with
     double texels_per_box = 0.0;
     bool cut_out = false;
     /// Replaces all of the above: a relief, which stays in main memory.
@@ -29,5 +32,7 @@ struct LevelData {
 };
 /// `texture`: the level's whole texture.
 [[nodiscard]] LevelData level_data(const SceneLevel& level, const image::Image8& texture);
+/// Without mip levels.
+[[nodiscard]] LevelData mesh_data(const SceneLevel& level);
 
 } // namespace frustumscreen::scene

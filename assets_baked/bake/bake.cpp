@@ -80,8 +80,7 @@ public:
     [[nodiscard]] const SourceScene& source() const { return source_; }
     /// The errors that are seen of a region of a site.
     [[nodiscard]] pack::SeenErrors seen_in_region(const pack::Pack& pack) const {
-        SourceMesh curtains = as_source({});
-        add_curtains(curtains);
+        const SourceMesh curtains = curtain_mesh();
         return seen_region_errors(pack, source_, SourceScene(curtains, curtains.positions),
                                   options_.prop.zone, options_.measuring);
     }
@@ -191,7 +190,8 @@ public:
 
 private:
     /// In the box.
-    void add_curtains(SourceMesh& mesh) const {
+    [[nodiscard]] SourceMesh curtain_mesh() const {
+        SourceMesh mesh = as_source({});
         for (const CurtainTriangle& curtain : curtains_) {
             const auto first = static_cast<std::uint32_t>(mesh.positions.size());
             for (const glm::dvec3& corner : curtain) {
@@ -200,6 +200,7 @@ private:
             mesh.triangles.push_back({first, first + 1, first + 2});
             mesh.triangle_materials.push_back(0);
         }
+        return mesh;
     }
 
     /// The mesh itself decides what is hidden. If the source did, parts of a simplified surface slightly
@@ -215,9 +216,8 @@ private:
         if (curtains_.empty()) {
             return visible_sides(mesh, scene, options_.prop.zone);
         }
-        SourceMesh curtained = own;
-        add_curtains(curtained);
-        return visible_region_sides(mesh, scene, SourceScene(curtained, curtained.positions),
+        const SourceMesh curtains = curtain_mesh();
+        return visible_region_sides(mesh, scene, SourceScene(curtains, curtains.positions),
                                     options_.prop.zone);
     }
 

@@ -56,45 +56,79 @@ glm::vec3 sample_weights(std::uint32_t triangle, int k) {
     return {1.0F - r, r * (1.0F - s), r * s};
 }
 
-/// The sides of a triangle that some eye sees.
-std::uint8_t sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const SourceScene& scene,
-                        const std::vector<glm::vec3>& eyes) {
+/// The search for the sides of one triangle that some eye sees, ray by ray.
+class SideSearch {
+public:
+    void begin_sample() { goes_on_ = seen != both; }
+    /// True if it wants the ray from the present sample to the eye with this number, towards `side`.
+    [[nodiscard]] bool takes(std::uint32_t eye, std::uint8_t side) {
+        constexpr std::uint32_t eyes_per_sample = 160;
+        constexpr std::uint32_t eyes_for_other_side = 40; // if both sides are visible, many eyes see either
+        goes_on_ = goes_on_ && seen != both && eye < (seen == none ? eyes_per_sample : eyes_for_other_side);
+        return goes_on_ && (seen & side) == 0;
+    }
+    [[nodiscard]] bool goes_on() const { return goes_on_; }
+
+    std::uint8_t seen = none;
+
+private:
+    bool goes_on_ = false;
+};
+
+/// Sides that some eye sees.
+struct SeenSides {
+    std::uint8_t alone = none; ///< with the scene alone
+    std::uint8_t curtained = none;
+};
+
+/// Of a triangle. `curtains`: null for none.
+SeenSides sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const SourceScene& scene,
+                     const SourceScene* curtains, const std::vector<glm::vec3>& eyes) {
     constexpr float lift = 2e-5F; // off the surface, box units: above 32-bit noise, below what a visitor sees
-    constexpr std::uint32_t eyes_per_sample = 160;
-    constexpr std::uint32_t eyes_for_other_side = 40; // if both sides are visible, many eyes see either
     const glm::vec3 area_normal = mesh.area_normal(triangle);
     const float twice_area = glm::length(area_normal);
     if (!(twice_area > 0.0F)) {
-        return none;
+        return {};
     }
     const glm::vec3 normal = area_normal / twice_area;
     // More samples for a large triangle, which may be visible through a small gap; a small one has
     // neighbours.
     const int samples = std::min(4, 1 + static_cast<int>(twice_area * 2e4F)) +
                         std::min(28, static_cast<int>(twice_area * 5e3F));
-    std::uint8_t seen = none;
-    for (int k = 0; k < samples && seen != both; ++k) {
+    SideSearch alone, curtained;
+    curtained.seen = curtains == nullptr ? both : none; // nothing to search
+    for (int k = 0; k < samples && (alone.seen != both || curtained.seen != both); ++k) {
         const glm::vec3 w = sample_weights(triangle, k);
         const glm::vec3 p =
             mesh.corner(triangle, 0) * w.x + mesh.corner(triangle, 1) * w.y + mesh.corner(triangle, 2) * w.z;
         const std::uint32_t start = hashed(triangle * 37U + static_cast<std::uint32_t>(k));
-        for (std::uint32_t j = 0; j < (seen == none ? eyes_per_sample : eyes_for_other_side) && seen != both;
-             ++j) {
+        alone.begin_sample();
+        curtained.begin_sample();
+        for (std::uint32_t j = 0; alone.goes_on() || curtained.goes_on(); ++j) {
             const glm::vec3& eye = eyes[(start + j * 331U) % eyes.size()];
             const glm::vec3 towards = eye - p;
             const float facing = glm::dot(towards, normal);
             const std::uint8_t side = facing > 0.0F ? front : back;
-            if ((seen & side) != 0) {
+            const bool is_for_alone = alone.takes(j, side);
+            const bool is_for_curtained = curtained.takes(j, side);
+            if (!is_for_alone && !is_for_curtained) {
                 continue;
             }
             const glm::vec3 origin = p + normal * (facing > 0.0F ? lift : -lift);
             const float distance = glm::length(towards);
-            if (!scene.occluded(origin, towards / distance, lift, distance)) {
-                seen = static_cast<std::uint8_t>(seen | side);
+            const glm::vec3 direction = towards / distance;
+            if (scene.occluded(origin, direction, lift, distance)) {
+                continue;
+            }
+            if (is_for_alone) {
+                alone.seen = static_cast<std::uint8_t>(alone.seen | side);
+            }
+            if (is_for_curtained && !curtains->occluded(origin, direction, lift, distance)) {
+                curtained.seen = static_cast<std::uint8_t>(curtained.seen | side);
             }
         }
     }
-    return seen;
+    return {alone.seen, curtained.seen};
 }
 
 /// Spreads visible sides to touching triangles, and on over the surface for `reach_box`, which fills gaps
@@ -152,8 +186,11 @@ TriangleMesh kept(const TriangleMesh& mesh, const std::vector<std::uint8_t>& sid
 }
 
 /// The sides seen, for each triangle.
-std::vector<std::uint8_t> all_sides_seen(const TriangleMesh& mesh, const SourceScene& scene,
-                                         const ViewingZone& zone) {
+struct AllSides {
+    std::vector<std::uint8_t> alone, curtained; ///< as SeenSides
+};
+AllSides all_sides_seen(const TriangleMesh& mesh, const SourceScene& scene, const SourceScene* curtains,
+                        const ViewingZone& zone) {
     glm::vec3 low(1e30F);
     glm::vec3 high(-1e30F);
     for (const glm::vec3& p : mesh.positions) {
@@ -161,28 +198,35 @@ std::vector<std::uint8_t> all_sides_seen(const TriangleMesh& mesh, const SourceS
         high = glm::max(high, p);
     }
     const std::vector<glm::vec3> eyes = eyes_of(zone, (low + high) * 0.5F);
-    std::vector<std::uint8_t> sides(mesh.triangle_count(), none);
-    parallel_for(sides.size(), 256, [&](std::size_t begin, std::size_t end) {
+    AllSides sides{std::vector<std::uint8_t>(mesh.triangle_count(), none),
+                   std::vector<std::uint8_t>(mesh.triangle_count(), none)};
+    parallel_for(mesh.triangle_count(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
-            sides[t] = sides_seen(mesh, static_cast<std::uint32_t>(t), scene, eyes);
+            const SeenSides seen = sides_seen(mesh, static_cast<std::uint32_t>(t), scene, curtains, eyes);
+            sides.alone[t] = seen.alone;
+            sides.curtained[t] = seen.curtained;
         }
     });
-    return grown(mesh, grown(mesh, sides, front), back);
+    sides.alone = grown(mesh, grown(mesh, sides.alone, front), back);
+    if (curtains != nullptr) {
+        sides.curtained = grown(mesh, grown(mesh, sides.curtained, front), back);
+    }
+    return sides;
 }
 
 } // namespace
 
 TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene, const ViewingZone& zone) {
-    return kept(mesh, all_sides_seen(mesh, scene, zone));
+    return kept(mesh, all_sides_seen(mesh, scene, nullptr, zone).alone);
 }
 
 TriangleMesh visible_region_sides(const TriangleMesh& mesh, const SourceScene& scene,
-                                  const SourceScene& curtained, const ViewingZone& zone) {
-    std::vector<std::uint8_t> sides = all_sides_seen(mesh, curtained, zone);
-    const std::vector<std::uint8_t> open = all_sides_seen(mesh, scene, zone);
+                                  const SourceScene& curtains, const ViewingZone& zone) {
+    const AllSides seen = all_sides_seen(mesh, scene, &curtains, zone);
+    std::vector<std::uint8_t> sides = seen.curtained;
     for (std::size_t t = 0; t < sides.size(); ++t) {
         const std::uint8_t upper = mesh.area_normal(t).z > 0.0F ? front : back;
-        sides[t] = static_cast<std::uint8_t>(sides[t] | (open[t] & upper));
+        sides[t] = static_cast<std::uint8_t>(sides[t] | (seen.alone[t] & upper));
     }
     return kept(mesh, sides);
 }
@@ -190,7 +234,7 @@ TriangleMesh visible_region_sides(const TriangleMesh& mesh, const SourceScene& s
 std::vector<bool> visible_triangles(const TriangleMesh& mesh, const SourceScene& scene,
                                     const ViewingZone& zone) {
     std::vector<bool> visible;
-    for (const std::uint8_t sides : all_sides_seen(mesh, scene, zone)) {
+    for (const std::uint8_t sides : all_sides_seen(mesh, scene, nullptr, zone).alone) {
         visible.push_back(sides != none);
     }
     return visible;

@@ -34,10 +34,10 @@ struct ViewingZone {
 [[nodiscard]] TriangleMesh visible_sides(const TriangleMesh& mesh, const SourceScene& scene,
                                          const ViewingZone& zone);
 
-/// Visible sides of a region of a site. `curtained`: `scene` with what hides the region's underside. Kept are the sides visible in
-/// `curtained`, and the ones visible in `scene` alone that look up (+z), such as the floor inside a hill that the prop cuts open.
+/// Visible sides of a region of a site. `curtains`: what hides the region's underside, and nothing else. Kept are the sides visible past
+/// `scene` and `curtains`, and the ones visible past `scene` alone that look up (+z), such as the floor inside a hill that the prop cuts open.
 [[nodiscard]] TriangleMesh visible_region_sides(const TriangleMesh& mesh, const SourceScene& scene,
-                                                const SourceScene& curtained, const ViewingZone& zone);
+                                                const SourceScene& curtains, const ViewingZone& zone);
 
 /// For each triangle, whether one of its sides is visible.
 [[nodiscard]] std::vector<bool> visible_triangles(const TriangleMesh& mesh, const SourceScene& scene,

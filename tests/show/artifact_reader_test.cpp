@@ -119,15 +119,19 @@ TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
     const auto& prepared = std::get<residency::PreparedArtifact>(*answer->prepared);
     const Result<pack::VerifiedPack> pack = pack::load_pack(known.file);
     ASSERT_EQ(prepared.data.size(), known.plan.levels.size());
+    std::vector<residency::PreparedLevel> before;
     for (std::size_t place = 0; place < known.plan.levels.size(); ++place) {
         const residency::PreparedLevel level =
-            residency::prepare_level(**pack, known.plan.levels[place], known.plan);
+            residency::prepare_level(**pack, known.plan.levels[place], known.plan, before);
         const scene::LevelData& data = prepared.data[place];
+        EXPECT_EQ(data.texture_of, place == 0 ? std::nullopt : std::optional<std::size_t>(0));
+        EXPECT_EQ(level.data.texture_of, data.texture_of);
         EXPECT_EQ(data.vertices.size(), level.data.vertices.size());
         ASSERT_EQ(data.mips.size(), level.data.mips.size());
         for (std::size_t mip = 0; mip < data.mips.size(); ++mip) {
             EXPECT_EQ(data.mips[mip].texels, level.data.mips[mip].texels);
         }
+        before.push_back(level);
     }
 }
 

@@ -166,6 +166,42 @@ TEST(RunLevels, OfAFixedTechniqueStay) {
     EXPECT_FALSE(show.upload("level2"));
 }
 
+/// Of a texture's mip levels down to a sixteenth.
+std::uint64_t bytes_with_mips(int width, int height) {
+    std::uint64_t texels = 0;
+    for (int mip = 0; mip <= 4; ++mip) {
+        texels += static_cast<std::uint64_t>(width >> mip) * static_cast<std::uint64_t>(height >> mip);
+    }
+    return 4 * texels;
+}
+
+TEST(RunLevels, ShareTheTextureOfTheirPack) {
+    Show show;
+    const render::GpuStore& store = show.renderer.store();
+    std::uint64_t apart = 0;
+    image::Image8 coarse_alone;
+    for (const std::string technique : {"level1", "level0"}) {
+        residency::RunLevels alone = show.levels(technique);
+        apart += store.bytes();
+        coarse_alone = show.picture(alone);
+        alone.release(show.renderer.store());
+    }
+    residency::RunLevels levels = show.levels("auto");
+    const image::Image8& texture = show.pack.textures[0];
+    EXPECT_EQ(store.bytes(), apart - bytes_with_mips(texture.width, texture.height));
+    std::uint64_t used = 0;
+    for (const residency::LevelUse& use : levels.uses()) {
+        EXPECT_EQ(use.gpu_bytes, use.planned_gpu_bytes);
+        used += use.gpu_bytes;
+    }
+    EXPECT_EQ(used, store.bytes());
+
+    show.play(levels, 200, 60.0); // until the coarse one is shown
+    show.table.table_from_prop.translation.x = 0.0;
+    EXPECT_EQ(levels.state().level, "level0");
+    EXPECT_EQ(show.picture(levels).texels, coarse_alone.texels);
+}
+
 TEST(RunLevels, LeaveNothingInTheStoreWhenTheyGoOrCannotCome) {
     Show show;
     residency::RunLevels levels = show.upload("auto").value();

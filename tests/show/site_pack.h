@@ -23,11 +23,12 @@ inline std::uint8_t region_blue(std::size_t number) {
     return static_cast<std::uint8_t>(7 * number);
 }
 
-/// Has two levels: the coarse one is good enough in the miniature, and not at six times its size.
+/// Has two levels: the coarse one is good enough in the miniature, and not at six times its size. Its texture is as large as the site's, so
+/// six times as fine.
 inline pack::Pack region_pack(std::size_t number) {
     pack::Pack pack = numbered_pack(0);
     pack.textures[0] = image::Image8(64, 64, {250, 250, region_blue(number), 255});
-    pack.levels[0].error = {4e-2F, 8e-2F, 2e-1F, 0.0F};
+    pack.levels[0].error = {4e-3F, 8e-3F, 2e-2F, 0.0F};
     return pack;
 }
 

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -36,7 +37,8 @@ protected:
         known.world =
             residency::open_world(settings, file_, known.outline.description, known.plan, request).value();
         ASSERT_TRUE(known.world && known.world->is_site);
-        ASSERT_EQ(residency::pages_of(*known.world).size(), site_regions);
+        ASSERT_EQ(residency::pages_of(*known.world).size(), 2 * site_regions);
+        known_ = known.world;
         ASSERT_TRUE(renderer_.prepare(residency::needs_of(*known.world, known.plan.needs)));
         Result<residency::PreparedArtifact> first =
             residency::prepare_artifact(known, "auto", 16.0, [] { return false; });
@@ -87,15 +89,31 @@ protected:
         max_store_bytes_ = std::max(max_store_bytes_, renderer_.store().bytes());
         ASSERT_FALSE(cells().shows() && cells().parts().empty());
     }
+    /// Its two levels, finest first, and its stand-in.
+    [[nodiscard]] std::span<const residency::LevelUse> uses_of(std::size_t region) {
+        return std::span(cells().uses()).subspan(3 * region, 3);
+    }
+    /// Regions whose finest level is there.
     [[nodiscard]] std::set<std::size_t> pages_there() {
         std::set<std::size_t> regions;
         for (std::size_t region = 0; region < site_regions; ++region) {
-            const bool there = cells().uses()[2 * region].gpu_bytes > 0; // the finest is its first
+            const bool there = uses_of(region)[0].gpu_bytes > 0;
             if (there) {
                 regions.insert(region);
             }
         }
         return regions;
+    }
+    /// Of the pages that are there, read once more.
+    [[nodiscard]] std::uint64_t bytes_of_pages_there() {
+        std::uint64_t bytes = 0;
+        for (const residency::PageName& page : residency::pages_of(*known_)) {
+            if (cells().uses()[page.place].gpu_bytes > 0) {
+                bytes +=
+                    residency::LoadedPage(residency::prepare_page(file_, *known_, page).value(), 1).bytes();
+            }
+        }
+        return bytes;
     }
     /// Goes there from above the region before, and stays for a second.
     void travel_to(std::size_t region, std::optional<std::size_t> from) {
@@ -129,6 +147,7 @@ protected:
         display::SurfacelessDisplay::create(320, 200).value();
     render::Renderer renderer_ = render::Renderer::create(320, 200).value();
     std::unique_ptr<residency::ArtifactCache> cache_;
+    std::shared_ptr<const residency::KnownWorld> known_;
     std::uint64_t coarse_bytes_ = 0, max_bytes_ = 0, max_store_bytes_ = 0;
     MonotonicTime now_;
 };
@@ -143,6 +162,7 @@ TEST_F(SitePages, ComeForThePlaceAndLeaveForTheNextWithinTheBudget) {
     travel_to(journey[0], std::nullopt);
     const std::size_t at_once = pages_there().size();
     EXPECT_GE(at_once, 9U); // the region and its eight neighbours
+    EXPECT_EQ(cache_->bytes(), coarse_bytes_ + bytes_of_pages_there());
     const std::uint64_t page_bytes = (cache_->bytes() - coarse_bytes_) / at_once;
     TearDown();
 
@@ -163,7 +183,50 @@ TEST_F(SitePages, ComeForThePlaceAndLeaveForTheNextWithinTheBudget) {
     EXPECT_GT(max_bytes_, budget - page_bytes);
     EXPECT_LT(max_store_bytes_ - coarse_store_bytes, 14 * page_bytes);
     EXPECT_GT(ever.size(), 12U); // more than fit at once
-    EXPECT_EQ(cache_->bytes(), coarse_bytes_ + pages_there().size() * page_bytes);
+    EXPECT_EQ(cache_->bytes(), coarse_bytes_ + bytes_of_pages_there());
+}
+
+/// Bytes in the store, counted by hand: the site's two levels share a texture, and a stand-in's texels lie no closer on the prop than the site's.
+TEST_F(SitePages, BringOnlyStandInsWithTheArtifact) {
+    constexpr std::uint64_t whole_texels = 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4;
+    constexpr std::uint64_t stand_in_texels = 8 * 8 + 4 * 4; // 64 / 6 texels along a side, or fewer
+    const std::uint64_t before = renderer_.store().bytes();
+    start(no_limit, true);
+    std::uint64_t vertices = 0;
+    for (const residency::LevelUse& use : levels().uses()) {
+        vertices += use.planned_gpu_bytes;
+    }
+    vertices -= 4 * whole_texels;
+    const pack::Pack region = region_pack(0);
+    vertices += site_regions * sizeof(pack::PackVertex) * region.levels.front().vertices.size();
+    const std::uint64_t mark = cells().uses().back().gpu_bytes;
+    EXPECT_EQ(renderer_.store().bytes() - before,
+              vertices + mark + 4 * (whole_texels + site_regions * stand_in_texels));
+    for (std::size_t k = 0; k < site_regions; ++k) {
+        EXPECT_EQ(uses_of(k)[2].level, 0U)
+            << k; // the coarsest, although the miniature is drawn by it at its best
+        EXPECT_EQ(uses_of(k)[2].texture, glm::ivec2(8, 8)) << k;
+        EXPECT_EQ(uses_of(k)[0].gpu_bytes + uses_of(k)[1].gpu_bytes, 0U) << k;
+    }
+}
+
+/// In the miniature the stand-in is all that is needed; a little larger, its level comes with the whole texture.
+TEST_F(SitePages, ComeForTheTextureAloneWhereTheSurfaceIsGoodEnough) {
+    start(no_limit, true);
+    scene::FrameCost cost; // without times the best level is drawn
+    cost.mesh.ms_per_triangle = 1e-6;
+    cells().start(cost);
+    const auto draw_at = [&](double zoom) {
+        for (int frame = 0; frame < 60; ++frame) {
+            draw(world::view_of(middle_of(14), zoom), std::nullopt);
+        }
+    };
+    draw_at(1.2);
+    EXPECT_EQ(bytes_of_pages_there(), 0U);
+    draw_at(1.9);
+    EXPECT_GT(uses_of(14)[1].gpu_bytes, 0U);
+    EXPECT_EQ(uses_of(14)[1].texture, glm::ivec2(64, 64));
+    EXPECT_TRUE(pages_there().empty());
 }
 
 TEST_F(SitePages, ARegionWhoseMemoryIsTooSmallStaysCoarse) {

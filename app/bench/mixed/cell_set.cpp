@@ -80,7 +80,10 @@ Result<void> CellSet::upload(std::optional<std::uint8_t> torch) {
     for (const residency::PreparedLevel& level : prepared_.levels) {
         render::LevelUpload upload(level.data);
         TRY_VOID(upload.go_on());
-        drawables_.push_back(renderer_->store().keep(std::move(upload)));
+        const std::optional<std::size_t> shared = level.data.texture_of;
+        const scene::TextureId texture =
+            shared ? drawables_[*shared].material.texture : scene::TextureId::None;
+        drawables_.push_back(renderer_->store().keep(std::move(upload), texture));
     }
     TRY(hit_points_, render::HitPointRenderer::create(*renderer_));
     return {};
