@@ -142,7 +142,7 @@ protected:
     [[nodiscard]] std::array<bool, site_regions> fine_regions() {
         std::array<bool, site_regions> fine{};
         for (std::size_t region = 0; region < site_regions; ++region) {
-            fine[region] = cells().uses()[2 * region].gpu_bytes > 0; // the finest is its first
+            fine[region] = cells().uses()[3 * region].gpu_bytes > 0; // the finest is its first
         }
         return fine;
     }
