@@ -156,21 +156,21 @@ bool are_enough(std::span<const Line> lines, const std::vector<bool>& used) {
 /// picture is not where the calibration says. Turned heads reveal this, because the lines then do not meet.
 bool is_shared_off(const Solution& solution, const std::vector<bool>& used) {
     Eigen::Matrix<double, 6, 5> mixed = Eigen::Matrix<double, 6, 5>::Zero();
-    Eigen::Matrix<double, 5, 5> told =
-        Eigen::Matrix<double, 5, 5>::Zero(); // information of the shared errors, with the eyes marginalised
+    Eigen::Matrix<double, 5, 5> information =
+        Eigen::Matrix<double, 5, 5>::Zero(); // on the shared errors, with the eyes marginalised
     Shared pull = Shared::Zero();
     for (std::size_t k = 0; k < used.size(); ++k) {
         if (used[k]) {
             const Rows& rows = solution.rows[k];
             mixed += rows.rows.transpose() * rows.by_shared;
-            told += rows.by_shared.transpose() * rows.by_shared;
+            information += rows.by_shared.transpose() * rows.by_shared;
             pull += rows.by_shared.transpose() * (rows.rows * solution.eyes - rows.goal);
         }
     }
-    told -= mixed.transpose() * solution.by_noise * mixed;
-    // The pull is told * shared + noise with covariance told; `shared` has unit variance. Axes without
-    // information are skipped.
-    const SymmetricAxes axes = axes_of(told);
+    information -= mixed.transpose() * solution.by_noise * mixed;
+    // The pull is information * shared + noise, whose covariance is the information; `shared` has unit
+    // variance. Axes without information are skipped.
+    const SymmetricAxes axes = axes_of(information);
     constexpr double limit = 20.5; // 99.9 % quantile of chi squared, five degrees of freedom
     double chi2 = 0.0;
     for (Eigen::Index k = 0; k < 5; ++k) {

@@ -83,12 +83,12 @@ const CopyState& CopyOffer::step(MonotonicTime now) {
         }
         break;
     case CopyStage::Looking:
-        if (lasts >= patience) {
+        if (lasts >= timeout) {
             state_ = {};
         }
         break;
     case CopyStage::Writing:
-        if (lasts >= patience) {
+        if (lasts >= timeout) {
             state_ = {.stage = CopyStage::Failed,
                       .said = "the stick has stopped answering; put it in again, or use another stick"};
         }

@@ -41,7 +41,7 @@ class CopyOffer {
 public:
     static constexpr Nanoseconds stands = std::chrono::minutes(10);
     /// Time-out: after this long without a new report the copy has failed. A slow stick takes some seconds for a pack of 4 MB.
-    static constexpr Nanoseconds patience = std::chrono::minutes(2);
+    static constexpr Nanoseconds timeout = std::chrono::minutes(2);
 
     /// Call when the importer's report changes. `is_old`: it is from before the exhibit's start.
     void take(MonotonicTime now, const library::ImportReport& report, bool is_old);

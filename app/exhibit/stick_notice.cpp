@@ -205,8 +205,8 @@ void StickNotice::take(MonotonicTime now, const library::ImportReport& report, b
 }
 
 bool StickNotice::stopped(MonotonicTime now) const {
-    return (stage_ == library::ImportStage::Copying && now - changed_ >= copy_patience) ||
-           (stage_ == library::ImportStage::Found && now - changed_ >= look_patience);
+    return (stage_ == library::ImportStage::Copying && now - changed_ >= copy_timeout) ||
+           (stage_ == library::ImportStage::Found && now - changed_ >= look_timeout);
 }
 
 double StickNotice::ring_at(MonotonicTime now) const {
@@ -219,7 +219,7 @@ std::optional<ShownNotice> StickNotice::at(MonotonicTime now) const {
     }
     const bool has_stopped = stopped(now);
     const MonotonicTime since =
-        has_stopped ? changed_ + (stage_ == library::ImportStage::Found ? look_patience : copy_patience)
+        has_stopped ? changed_ + (stage_ == library::ImportStage::Found ? look_timeout : copy_timeout)
                     : changed_;
     const bool lasts =
         !has_stopped && (stage_ == library::ImportStage::Found || stage_ == library::ImportStage::Copying);

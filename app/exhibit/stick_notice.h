@@ -60,9 +60,9 @@ class StickNotice {
 public:
     static constexpr Nanoseconds told_for = std::chrono::minutes(2);
     /// A copy without progress for this long has stopped: the stick was pulled, or the importer has ended.
-    static constexpr Nanoseconds copy_patience = std::chrono::seconds(30);
+    static constexpr Nanoseconds copy_timeout = std::chrono::seconds(30);
     /// Searching a stick with many files takes a minute at most.
-    static constexpr Nanoseconds look_patience = std::chrono::seconds(90);
+    static constexpr Nanoseconds look_timeout = std::chrono::seconds(90);
 
     /// `is_old`: it ended long before the exhibit began. The same report again changes nothing.
     void take(MonotonicTime now, const library::ImportReport& report, bool is_old);

@@ -118,14 +118,14 @@ void Guide::answer(MonotonicTime now, bool may_speak) {
 void Guide::note_need(MonotonicTime now, bool needed) {
     const Nanoseconds gone = last_ ? now - *last_ : Nanoseconds(0);
     last_ = now;
-    needed_for_ = std::clamp(needed_for_ + (needed ? gone : -2 * gone), Nanoseconds(0), patience);
+    needed_for_ = std::clamp(needed_for_ + (needed ? gone : -2 * gone), Nanoseconds(0), debounce);
 }
 
 /// True while the need may still be a momentary one.
 bool Guide::waits(MonotonicTime now) const {
     const bool again = guided_ && now - *guided_ < again_within;
     return guidance_.stage == GuidanceStage::Quiet && !asked_ &&
-           needed_for_ < (again ? patience_again : patience);
+           needed_for_ < (again ? debounce_again : debounce);
 }
 
 void Guide::show(std::span<const glm::dvec3> hull) {

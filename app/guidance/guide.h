@@ -46,9 +46,9 @@ struct Guidance {
 
 class Guide {
 public:
-    static constexpr Nanoseconds patience = std::chrono::milliseconds(400);
+    static constexpr Nanoseconds debounce = std::chrono::milliseconds(400);
     /// A visitor who has just been guided is still moving the prop, so a loss from going too far is shown sooner.
-    static constexpr Nanoseconds patience_again = std::chrono::milliseconds(100);
+    static constexpr Nanoseconds debounce_again = std::chrono::milliseconds(100);
     static constexpr Nanoseconds again_within = std::chrono::milliseconds(1500); ///< since the latest advice
     static constexpr Nanoseconds until_text = std::chrono::milliseconds(1500);   ///< since the picture
     static constexpr Nanoseconds until_voice = std::chrono::milliseconds(3000);  ///< since the text

@@ -36,8 +36,8 @@ inline constexpr std::string_view staff_import_ending = ".staff";
 /// True of the line about a signed request for the state of delivery, which waits for a button too.
 [[nodiscard]] bool offers_reset(const ImportedPack& line);
 
-/// The lines of what the stick asks for: `outcome`, and what is wrong with the files. `outcome`: the
-/// lines of the unit that writes; none: it left no word, which is told if the file is one that counts.
+/// The lines on the stick's requests: `outcome`, and faults of the request files. `outcome`: the lines of
+/// the unit that writes; none: it left no report, which is a fault if the request is valid.
 /// `is_confirmed`: by the staff's buttons.
 [[nodiscard]] std::vector<ImportedPack>
 lines_of_stick_report(FileTree& stick, std::optional<std::vector<ImportedPack>> outcome, bool is_confirmed);

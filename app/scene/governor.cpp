@@ -149,8 +149,8 @@ void Governor::change_to(std::size_t quality_level, MonotonicTime now) {
     const bool relief = !fits(current_);
     if (relief && entered_for_quality_) {
         // Exponential backoff: a level that was entered for quality and proved too slow.
-        const bool lasted = now - changed_ >= 4 * patience_;
-        patience_ = lasted ? min_patience : std::min(2 * patience_, max_patience);
+        const bool lasted = now - changed_ >= 4 * backoff_;
+        backoff_ = lasted ? min_backoff : std::min(2 * backoff_, max_backoff);
     }
     entered_for_quality_ = !relief;
     current_ = quality_level;
@@ -160,7 +160,7 @@ void Governor::change_to(std::size_t quality_level, MonotonicTime now) {
 }
 
 Nanoseconds Governor::delay_of(Change change) const {
-    return change == Change::Relief ? relief_delay : (change == Change::Try ? try_patience_ : patience_);
+    return change == Change::Relief ? relief_delay : (change == Change::Try ? try_backoff_ : backoff_);
 }
 
 void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
@@ -170,7 +170,7 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
     }
     if (now - changed_ >= dwell && current_ == tried_) {
         if (model_.expected_ms(current_) < worth_saving * tried_at_ms_) {
-            try_patience_ = min_patience; // the try succeeded: the next one may follow as soon
+            try_backoff_ = min_backoff; // the try succeeded: the next one may follow as soon
         }
         tried_at_ms_ = 0.0;
     }
@@ -193,7 +193,7 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
     if (wanted == Change::Try) {
         tried_ = better;
         tried_at_ms_ = model_.expected_ms(current_);
-        try_patience_ = std::min(2 * try_patience_, max_patience);
+        try_backoff_ = std::min(2 * try_backoff_, max_backoff);
     }
     change_to(better, now);
 }

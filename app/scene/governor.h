@@ -95,8 +95,8 @@ public:
     /// A level is left when it was too slow for this long: by then the effect of a single slow frame has
     /// decayed, and a lasting change is fully known.
     static constexpr Nanoseconds relief_delay = std::chrono::milliseconds(250);
-    static constexpr Nanoseconds min_patience = std::chrono::seconds(2);
-    static constexpr Nanoseconds max_patience = std::chrono::seconds(512);
+    static constexpr Nanoseconds min_backoff = std::chrono::seconds(2);
+    static constexpr Nanoseconds max_backoff = std::chrono::seconds(512);
 
     /// `times`: one for each level, measured on this GPU. At least one level is required.
     Governor(std::vector<QualityLevel> quality_levels, const std::vector<QualityLevelTime>& times,
@@ -136,8 +136,8 @@ private:
     MonotonicTime changed_; ///< when `current_` was entered
     Change wanted_ = Change::None;
     MonotonicTime wanted_since_;
-    Nanoseconds patience_ = min_patience;
-    Nanoseconds try_patience_ = min_patience;
+    Nanoseconds backoff_ = min_backoff;
+    Nanoseconds try_backoff_ = min_backoff;
     std::size_t tried_ = 0;    ///< the level that was tried last because of doubt
     double tried_at_ms_ = 0.0; ///< expected time of the level before it; 0: the try has been judged
     std::uint64_t switches_ = 0;

@@ -12,15 +12,15 @@ namespace frustumscreen::show {
 namespace {
 
 /// A disk that is busy with a stick's packs is slow.
-constexpr Nanoseconds look_patience = std::chrono::seconds(30);
+constexpr Nanoseconds look_timeout = std::chrono::seconds(30);
 /// Longest time for one pack, or for all small pictures of a set.
-constexpr Nanoseconds pack_patience = std::chrono::minutes(5);
+constexpr Nanoseconds pack_timeout = std::chrono::minutes(5);
 
 } // namespace
 
 LibraryWatch::LibraryWatch(const settings::Settings& settings, SetUp set_up)
     : settings_(settings), set_up_(std::move(set_up)), trial_(std::move(set_up_.start.trial)),
-      offered_(set_up_.shown), on_show_(set_up_.shown), heartbeat_(monotonic_now() + look_patience) {
+      offered_(set_up_.shown), on_show_(set_up_.shown), heartbeat_(monotonic_now() + look_timeout) {
     if (trial_) {
         verdict_trouble_ = set_up_.start.trouble;
         kept_ = trial_->verdict();
@@ -57,7 +57,7 @@ bool LibraryWatch::give_back(std::unique_ptr<ShownSet>& set) {
 void LibraryWatch::work(const std::stop_token& stop) {
     begin_device_thread("library", ThreadPriority::Low);
     while (!stop.stop_requested()) {
-        heartbeat_.promise(monotonic_now() + look_patience);
+        heartbeat_.promise(monotonic_now() + look_timeout);
         take_what_comes();
         look();
         keep();
@@ -147,7 +147,7 @@ void LibraryWatch::follow_target(const std::stop_token& stop) {
 void LibraryWatch::offer(const library::InstalledSet& set, const std::stop_token& stop) {
     SetRequest request = request_of(set, set_up_.library, settings_);
     request.goes_on = [&] {
-        heartbeat_.promise(monotonic_now() + pack_patience);
+        heartbeat_.promise(monotonic_now() + pack_timeout);
         return !stop.stop_requested();
     };
     Result<std::unique_ptr<ShownSet>> opened = open_set(settings_, set_up_.options, request, set_up_.frames);

@@ -33,11 +33,11 @@ void RunWatch::begin(MonotonicTime now, bool simulated_time, StatusFile& status_
     if (const auto interval = manager_.watchdog_interval(); interval || status_file.wanted()) {
         watchdog_.emplace(interval.value_or(usual_interval), now);
     }
-    hang_watch_.emplace(loop_patience, [this, &status_file](std::optional<const char*> part) {
+    hang_watch_.emplace(loop_timeout, [this, &status_file](std::optional<const char*> part) {
         const Sentence line =
             part
                 ? format_sentence("watchdog: the picture hangs: the exhibit was silent for {} s, while it {}",
-                                  loop_patience / std::chrono::seconds(1), *part)
+                                  loop_timeout / std::chrono::seconds(1), *part)
                 : Sentence("watchdog: the exhibit responds again");
         journal_.note(part ? service::LogPriority::Error : service::LogPriority::Notice, line.view(),
                       {{"DEVICE", "watchdog"}});

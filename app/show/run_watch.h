@@ -28,7 +28,7 @@ public:
         : manager_(manager), journal_(journal) {}
 
     /// Silence of the loop that counts as a hang.
-    static constexpr Nanoseconds loop_patience = std::chrono::seconds(4);
+    static constexpr Nanoseconds loop_timeout = std::chrono::seconds(4);
 
     /// Call when the loop begins; `status_file` is informed of a hang.
     void begin(MonotonicTime now, bool simulated_time, StatusFile& status_file);

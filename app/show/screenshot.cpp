@@ -30,7 +30,7 @@ Result<const image::Image8*> Screenshot::take(const std::stop_token& stop) {
         std::this_thread::sleep_for(between_looks);
     }
     ask();
-    if (!comes(monotonic_now() + patience_, stop)) {
+    if (!comes(monotonic_now() + timeout_, stop)) {
         return fail(ErrorKind::Internal, "show.no_screenshot",
                     "the exhibit hands out no picture; it hangs, is ending, or shows the "
                     "staff what its camera sees");

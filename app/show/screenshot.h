@@ -22,11 +22,11 @@ namespace frustumscreen::show {
 class Screenshot {
 public:
     static constexpr Nanoseconds between_pictures = std::chrono::seconds(1);
-    static constexpr Nanoseconds usual_patience = std::chrono::seconds(3);
+    static constexpr Nanoseconds usual_timeout = std::chrono::seconds(3);
 
-    /// `patience`: longest wait of `take` for a frame.
-    Screenshot(int width, int height, Nanoseconds patience = usual_patience)
-        : picture_(width, height), patience_(patience) {}
+    /// `timeout`: longest wait of `take` for a frame.
+    Screenshot(int width, int height, Nanoseconds timeout = usual_timeout)
+        : picture_(width, height), timeout_(timeout) {}
 
     /// Call in every frame, after it was presented.
     void serve(const display::Display& display);
@@ -42,7 +42,7 @@ private:
 
     std::atomic<Turn> turn_ = Turn::None;
     image::Image8 picture_; ///< owned by the render thread while it copies, otherwise by the caller of `take`
-    Nanoseconds patience_;
+    Nanoseconds timeout_;
     MonotonicTime earliest_{};
 };
 

@@ -34,9 +34,9 @@ int VisitorSide::update(const glm::dvec3& eye_m) {
     }
     const double from_front = degrees(std::atan2(eye_m.y, eye_m.x)) + quarter_deg; // 0 at -Y
     const double off = std::remainder(from_front - quarter_deg * quarter_turns_, 4.0 * quarter_deg);
-    const double patience = known_ ? hysteresis_deg : 0.0;
+    const double margin = known_ ? hysteresis_deg : 0.0;
     known_ = true;
-    if (std::abs(off) > 0.5 * quarter_deg + patience) {
+    if (std::abs(off) > 0.5 * quarter_deg + margin) {
         const int quarters = static_cast<int>(std::lround(from_front / quarter_deg));
         quarter_turns_ = ((quarters % 4) + 4) % 4;
     }

@@ -4,8 +4,8 @@
 
 namespace frustumscreen::watch {
 
-Judge::Judge(const Patience& patience, MonotonicTime start)
-    : patience_(patience), looked_(start), counted_(start), judged_since_(start), drained_(start) {}
+Judge::Judge(const Timeouts& timeouts, MonotonicTime start)
+    : timeouts_(timeouts), looked_(start), counted_(start), judged_since_(start), drained_(start) {}
 
 void Judge::restart(MonotonicTime now) {
     judged_since_ = counted_ = now;
@@ -19,7 +19,7 @@ void Judge::step_taken(MonotonicTime now) {
 }
 
 void Judge::count_endings(MonotonicTime now, std::uint32_t failures) {
-    const double dropped = to_seconds(now - drained_) / to_seconds(patience_.between_endings);
+    const double dropped = to_seconds(now - drained_) / to_seconds(timeouts_.between_endings);
     endings_ = std::max(endings_ - dropped, 0.0);
     drained_ = now;
     endings_ += failures_ && failures > *failures_ ? failures - *failures_ : 0;
@@ -44,28 +44,28 @@ bool Judge::picture_lives(MonotonicTime now, const Outcome& outcome) {
     return now - counted_ < fresh_for;
 }
 
-bool Judge::lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience) {
+bool Judge::lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds duration) {
     std::optional<MonotonicTime>& since = bad_since_.at(static_cast<std::size_t>(cause));
     if (!bad) {
         since.reset();
         return false;
     }
     since = since ? since : now;
-    return now - *since >= patience;
+    return now - *since >= duration;
 }
 
 std::optional<Cause> Judge::trouble_of(MonotonicTime now, const Outcome& outcome, bool lives) {
     const bool ends = endings_ > max_endings;
     // A start takes longer than an interruption of a live picture.
-    const MonotonicTime given = has_lived_ ? now : judged_since_ + patience_.start;
-    const bool dark = lasts(Cause::NoPicture, !lives, now, patience_.picture) && now >= given;
+    const MonotonicTime given = has_lived_ ? now : judged_since_ + timeouts_.start;
+    const bool dark = lasts(Cause::NoPicture, !lives, now, timeouts_.picture) && now >= given;
     const bool empty =
-        lasts(Cause::NothingToShow, lives && outcome.exhibit->artifacts == 0, now, patience_.nothing_to_show);
+        lasts(Cause::NothingToShow, lives && outcome.exhibit->artifacts == 0, now, timeouts_.nothing_to_show);
     const bool is_short =
         outcome.memory_free < min_memory_free || outcome.exhibit_memory > max_exhibit_memory;
-    const bool memory = lasts(Cause::MemoryShort, is_short, now, patience_.memory);
+    const bool memory = lasts(Cause::MemoryShort, is_short, now, timeouts_.memory);
     const bool device =
-        lasts(Cause::DeviceSilent, lives && outcome.exhibit->device_hangs, now, patience_.device);
+        lasts(Cause::DeviceSilent, lives && outcome.exhibit->device_hangs, now, timeouts_.device);
     if (ends && !lives) {
         return Cause::KeepsEnding;
     }
@@ -88,7 +88,7 @@ Observation Judge::look(MonotonicTime now, Mode mode, const Outcome& outcome) {
             pictures_ = outcome.safe_pictures.value_or(pictures_);
             counted_ = now;
         }
-        const bool dead = now - counted_ >= patience_.safe_picture;
+        const bool dead = now - counted_ >= timeouts_.safe_picture;
         return {dead ? std::optional(Cause::SafePictureFails) : std::nullopt, false};
     }
     const bool lives = picture_lives(now, outcome);

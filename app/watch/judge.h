@@ -7,7 +7,7 @@
 ///          `between_endings`. From three on the exhibit keeps ending.
 /// Rest     memory and device must be bad for `memory` or `device` without interruption.
 /// Time     monotonic, a parameter. A late look (this program or the machine was suspended) restarts all
-///          patience.
+///          timeouts.
 /// Threads  values; one caller. Allocates nothing.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace frustumscreen::watch {
 
-struct Patience {
+struct Timeouts {
     Nanoseconds picture = std::chrono::seconds(15); ///< longer than systemd's watchdog needs
     Nanoseconds start = std::chrono::seconds(60);
     Nanoseconds safe_picture = std::chrono::seconds(30);
@@ -35,7 +35,7 @@ public:
     static constexpr double max_exhibit_memory = 0.92;
     static constexpr double max_endings = 2.5; ///< three, less what drains between them
 
-    Judge(const Patience& patience, MonotonicTime start);
+    Judge(const Timeouts& timeouts, MonotonicTime start);
 
     [[nodiscard]] Observation look(MonotonicTime now, Mode mode, const Outcome& outcome);
     /// An action is taken now: judge again from here on.
@@ -45,11 +45,11 @@ private:
     [[nodiscard]] bool picture_lives(MonotonicTime now, const Outcome& outcome);
     void count_endings(MonotonicTime now, std::uint32_t failures);
     [[nodiscard]] std::optional<Cause> trouble_of(MonotonicTime now, const Outcome& outcome, bool lives);
-    /// True if `bad` was true at every look for `patience`.
-    [[nodiscard]] bool lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds patience);
+    /// True if `bad` was true at every look for `duration`.
+    [[nodiscard]] bool lasts(Cause cause, bool bad, MonotonicTime now, Nanoseconds duration);
     void restart(MonotonicTime now);
 
-    Patience patience_;
+    Timeouts timeouts_;
     MonotonicTime looked_;
     MonotonicTime counted_;      ///< when the picture counter last moved
     MonotonicTime judged_since_; ///< latest of the start, an action, and a start of the process

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] unsigned framebuffer() const override { return screen_->picture().name(); }
     [[nodiscard]] int buffer_age() const override { return presented_ ? 1 : 0; }
     void changed(const PixelRectangle& part) override { changed_ = united(changed_, part); }
-    /// Waits until the picture is drawn, and at most `flip_patience` for the previous flip.
+    /// Waits until the picture is drawn, and at most `flip_timeout` for the previous flip.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now) override;
     [[nodiscard]] bool takes_picture() override;
     [[nodiscard]] Result<void> stay_dark() override;

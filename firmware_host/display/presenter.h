@@ -13,7 +13,7 @@
 /// A picture without a size is drawn in the mode's size. If picture and mode differ in size, the card's own
 /// scaler fills the mode if it can; otherwise the picture is scaled while it is copied.
 ///
-/// Time     the device's clock; `present` waits at most `flip_patience`, for the previous flip.
+/// Time     the device's clock; `present` waits at most `flip_timeout`, for the previous flip.
 /// Threads  the render thread.
 /// Errors   the card has returned after it was gone, or has taken no picture for `stuck_given_up`, or the
 ///          projector is at another card: the program must be restarted.
@@ -30,7 +30,7 @@
 namespace frustumscreen::display {
 
 /// Longest wait for a flip before the exhibit continues without it: fifteen refreshes of 60 Hz.
-inline constexpr Nanoseconds flip_patience = std::chrono::milliseconds(250);
+inline constexpr Nanoseconds flip_timeout = std::chrono::milliseconds(250);
 /// After this time a missing flip is given up, and the projector is lit again.
 inline constexpr Nanoseconds flip_given_up = std::chrono::seconds(2);
 /// A card that takes no picture for this long, although a projector is there, hangs.
@@ -55,7 +55,7 @@ public:
     /// Keeps the projector dark; call it in place of `present`. `may_set` and errors as there.
     [[nodiscard]] Result<void> stay_dark(bool may_set);
 
-    /// Waits at most `flip_patience`; true: the picture presented last is on the screen.
+    /// Waits at most `flip_timeout`; true: the picture presented last is on the screen.
     [[nodiscard]] bool wait_until_shown();
 
     [[nodiscard]] bool lit() const { return lit_.has_value(); }

@@ -27,9 +27,9 @@ void Presenter::wait_for_flip() {
         return;
     }
     if (!late_) {
-        const MonotonicTime patience_ends = device_.now() + flip_patience;
-        while (queued_ && device_.now() < patience_ends) {
-            if (const std::optional<Flipped> flipped = device_.wait_flip(patience_ends - device_.now())) {
+        const MonotonicTime deadline = device_.now() + flip_timeout;
+        while (queued_ && device_.now() < deadline) {
+            if (const std::optional<Flipped> flipped = device_.wait_flip(deadline - device_.now())) {
                 take(*flipped);
             }
         }
@@ -57,7 +57,7 @@ void Presenter::give_up_flip() {
 
 bool Presenter::takes_picture() {
     take_ready_flips();
-    if (queued_ && !late_ && device_.now() - queued_->at >= flip_patience) {
+    if (queued_ && !late_ && device_.now() - queued_->at >= flip_timeout) {
         note_late();
     }
     give_up_flip();

@@ -77,7 +77,7 @@ std::string_view why_unreachable() {
 } // namespace
 
 Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_view question,
-                               std::size_t max_bytes, Nanoseconds patience) {
+                               std::size_t max_bytes, Nanoseconds timeout) {
     const std::string place = printable(path.string(), 200);
     const std::optional<UnixAddress> address = UnixAddress::of(path);
     if (!address) {
@@ -85,7 +85,7 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
     }
     const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     // Limits the wait at a socket whose queue is full.
-    const timeval longest{std::chrono::ceil<std::chrono::seconds>(patience).count(), 0};
+    const timeval longest{std::chrono::ceil<std::chrono::seconds>(timeout).count(), 0};
     static_cast<void>(::setsockopt(socket.number(), SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof(longest)));
     if (::connect(socket.number(), address->get(), address->size()) != 0) {
         return bad_input("staff.unreachable", "{}: {}", place, why_unreachable());
@@ -94,7 +94,7 @@ Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_vi
     // If the exhibit has closed the connection already, its answer gives the reason.
     static_cast<void>(::send(socket.number(), line.data(), line.size(), MSG_NOSIGNAL));
     std::optional<Bytes> answer =
-        read_all(socket.number(), max_bytes + max_head_bytes, monotonic_now() + patience);
+        read_all(socket.number(), max_bytes + max_head_bytes, monotonic_now() + timeout);
     if (!answer) {
         return bad_input("staff.no_answer",
                          place + ": the exhibit does not answer in time; it hangs, or others ask it too");

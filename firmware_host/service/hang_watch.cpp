@@ -18,15 +18,15 @@ HangPolicy::News HangPolicy::look(MonotonicTime now, MonotonicTime heard) {
         return News::HeardAgain;
     }
     watched_since_ = stood_still ? now : watched_since_;
-    if (now - std::max(heard, watched_since_) < patience_) {
+    if (now - std::max(heard, watched_since_) < timeout_) {
         return News::None;
     }
     hung_ = heard;
     return News::Hangs;
 }
 
-HangWatch::HangWatch(Nanoseconds patience, Tell tell)
-    : policy_(patience), tell_(std::move(tell)), heard_(monotonic_now().time_since_epoch().count()),
+HangWatch::HangWatch(Nanoseconds timeout, Tell tell)
+    : policy_(timeout), tell_(std::move(tell)), heard_(monotonic_now().time_since_epoch().count()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void HangWatch::enters(const char* doing) {

@@ -20,15 +20,15 @@ namespace frustumscreen::service {
 /// suspended, it restarts its count, because the silence may not be the thread's fault.
 class HangPolicy {
 public:
-    explicit HangPolicy(Nanoseconds patience) : patience_(patience) {}
-    [[nodiscard]] Nanoseconds between_looks() const { return patience_ / 16; }
+    explicit HangPolicy(Nanoseconds timeout) : timeout_(timeout) {}
+    [[nodiscard]] Nanoseconds between_looks() const { return timeout_ / 16; }
 
     enum class News { None, Hangs, HeardAgain };
     /// `heard`: time of the thread's last sign of life.
     [[nodiscard]] News look(MonotonicTime now, MonotonicTime heard);
 
 private:
-    Nanoseconds patience_;
+    Nanoseconds timeout_;
     std::optional<MonotonicTime> looked_;
     MonotonicTime watched_since_;
     std::optional<MonotonicTime> hung_; ///< last sign of life before the reported hang
@@ -38,7 +38,7 @@ class HangWatch {
 public:
     /// `doing`: the thread's last entered activity, when it hangs; nullopt = it has recovered.
     using Tell = std::function<void(std::optional<const char*> doing)>;
-    HangWatch(Nanoseconds patience, Tell tell);
+    HangWatch(Nanoseconds timeout, Tell tell);
 
     /// A sign of life: the thread begins `doing` now. The string must be static.
     void enters(const char* doing);

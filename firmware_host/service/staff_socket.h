@@ -65,7 +65,7 @@ private:
 /// Asks and waits. Errors: no listener, no permission, the exhibit's own sentence, no answer in time, more
 /// than `max_bytes`.
 [[nodiscard]] Result<Bytes> ask_staff_socket(const std::filesystem::path& path, std::string_view question,
-                                             std::size_t max_bytes, Nanoseconds patience);
+                                             std::size_t max_bytes, Nanoseconds timeout);
 
 /// The process at the other end, as the kernel reports it.
 struct SocketPeer {

@@ -22,7 +22,7 @@ enum class Health : std::uint8_t {
     Well,
     NoPicture,   ///< nothing was presented for too long
     FrozenCode,  ///< the presented picture does not change, or has no code
-    ThreadHangs, ///< a device's thread broke its promise
+    ThreadHangs, ///< a device's thread missed its promised time
     Hangs,       ///< the exhibit's own thread is silent; hang_watch.h reports it
 };
 /// The fault in one sentence; Well has one too.

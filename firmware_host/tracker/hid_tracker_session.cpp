@@ -40,7 +40,7 @@ std::span<const std::byte> HidTrackerSession::due(MonotonicTime now) {
     began_ = began_ ? began_ : now;
     if (!informed_ && now - *began_ > SessionTimes::reply) {
         give_up(UsbTrackerState::SetUpRefused);
-    } else if (silence(now) > std::max(longest_silence, intake_.patience())) {
+    } else if (silence(now) > std::max(longest_silence, intake_.timeout())) {
         give_up(UsbTrackerState::Silent);
     }
     return {};
@@ -66,7 +66,7 @@ UsbTrackerState HidTrackerSession::state(MonotonicTime now) const {
     if (failed_ || !began_) {
         return trouble_;
     }
-    if (silence(now) > intake_.patience()) {
+    if (silence(now) > intake_.timeout()) {
         return UsbTrackerState::Silent;
     }
     if (!intake_.latest()) {

@@ -11,11 +11,11 @@ constexpr int enough_to_believe = 4;
 /// A fault must be gone, or the prop's sensor silent, for this long before the state changes; longer for a
 /// slow device.
 constexpr Nanoseconds settling = std::chrono::milliseconds(500);
-/// Patience with a device until its second frame, while its frame interval is unknown.
+/// The timeout of a device until its second frame, while its frame interval is unknown.
 constexpr Nanoseconds unknown_pace = std::chrono::milliseconds(1500);
-constexpr int gaps_of_patience = 3;
-constexpr Nanoseconds min_patience = std::chrono::milliseconds(250);
-constexpr Nanoseconds max_patience = std::chrono::seconds(4);
+constexpr int gaps_until_timeout = 3;
+constexpr Nanoseconds min_timeout = std::chrono::milliseconds(250);
+constexpr Nanoseconds max_timeout = std::chrono::seconds(4);
 constexpr int frames_to_forget = 10; ///< after which a long gap is forgotten
 /// A pose that arrives this late cannot show where the prop is now.
 constexpr Nanoseconds old_age = std::chrono::milliseconds(500);
@@ -107,14 +107,14 @@ TrackerCounts SequenceChecker::counts() const {
     return counts;
 }
 
-Nanoseconds SequenceChecker::patience() const {
+Nanoseconds SequenceChecker::timeout() const {
     return longest_gap_ > Nanoseconds::zero()
-               ? std::clamp<Nanoseconds>(gaps_of_patience * longest_gap_, min_patience, max_patience)
+               ? std::clamp<Nanoseconds>(gaps_until_timeout * longest_gap_, min_timeout, max_timeout)
                : unknown_pace;
 }
 
 UsbTrackerState SequenceChecker::state(MonotonicTime now) const {
-    const Nanoseconds settled = std::max(settling, patience());
+    const Nanoseconds settled = std::max(settling, timeout());
     const auto lately = [&](const std::optional<MonotonicTime>& last) {
         return last && now - *last < settled;
     };

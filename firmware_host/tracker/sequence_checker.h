@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::optional<MonotonicTime> latest() const { return latest_; }
     /// A device that sends no frame for longer than this is silent. Derived from the intervals between its
     /// frames.
-    [[nodiscard]] Nanoseconds patience() const;
+    [[nodiscard]] Nanoseconds timeout() const;
     /// Streaming, SensorMissing, DeviceFault, PosesUnusable, PosesLate or MetalNear.
     [[nodiscard]] UsbTrackerState state(MonotonicTime now) const;
 

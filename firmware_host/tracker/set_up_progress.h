@@ -21,7 +21,7 @@ public:
     [[nodiscard]] bool waits_for_answer() const { return sent_.has_value(); }
     /// The device should stream, but has been silent for too long.
     [[nodiscard]] bool silent(MonotonicTime now, const SequenceChecker& intake) const {
-        return streaming() && now - std::max(intake.latest().value_or(awake_), awake_) > intake.patience();
+        return streaming() && now - std::max(intake.latest().value_or(awake_), awake_) > intake.timeout();
     }
     [[nodiscard]] bool unanswered(MonotonicTime now) const {
         return sent_ && now - *sent_ > SessionTimes::reply;

@@ -90,7 +90,7 @@ TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
 TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
     press(true);
     rest(on(0), TouchProcedure::rest / 2);
-    now += TouchProcedure::patience + tick;
+    now += TouchProcedure::timeout + tick;
     procedure.step({now, std::nullopt, false, false});
     EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
     EXPECT_EQ(procedure.word(), TouchPrompt::NotSeen);

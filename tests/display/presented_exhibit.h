@@ -30,7 +30,7 @@ public:
         const MonotonicTime called = kms.time;
         const Result<MonotonicTime> shown = presenter.present(changed, true);
         EXPECT_TRUE(shown) << shown.error().message;
-        EXPECT_LE(kms.time - called, flip_patience) << "present held up the exhibit";
+        EXPECT_LE(kms.time - called, flip_timeout) << "present held up the exhibit";
         kms.time = std::max(kms.time, presenter.next_frame(begin, one_refresh));
         return shown.value_or(MonotonicTime{});
     }

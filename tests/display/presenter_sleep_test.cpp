@@ -25,7 +25,7 @@ public:
         for (int k = 0; k < count; ++k) {
             const MonotonicTime called = kms.time;
             EXPECT_TRUE(presenter.stay_dark(may_set));
-            EXPECT_LE(kms.time - called, flip_patience) << "sleep held up the exhibit";
+            EXPECT_LE(kms.time - called, flip_timeout) << "sleep held up the exhibit";
             kms.time += one_refresh;
         }
     }

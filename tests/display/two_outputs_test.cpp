@@ -170,7 +170,7 @@ TEST_P(TwoOutputs, AFlipThatDoesNotComeIsNotWaitedForAndIsTold) {
         screen->frame();
         ++frames_until_told;
     }
-    EXPECT_NEAR(frames_until_told, flip_patience / one_frame, 2);
+    EXPECT_NEAR(frames_until_told, flip_timeout / one_frame, 2);
     EXPECT_EQ(screen->presented, presented);
     while (screen->presented == presented && screen->time() - before < 2 * flip_given_up) {
         screen->frame();

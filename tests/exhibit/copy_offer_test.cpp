@@ -137,7 +137,7 @@ TEST_F(Offer, SaysWhyNothingIsWritten) {
 
 TEST_F(Offer, AStickThatSaysNothingMoreIsGivenUp) {
     static_cast<void>(take(told("stick1", ImportStage::Found)));
-    EXPECT_EQ(after(CopyOffer::patience), CopyStage::NoStick);
+    EXPECT_EQ(after(CopyOffer::timeout), CopyStage::NoStick);
     static_cast<void>(take(waiting("stick1")));
     offer.confirm(now);
     library::ImportReport copies = told("stick1.staff", ImportStage::Copying);
@@ -147,7 +147,7 @@ TEST_F(Offer, AStickThatSaysNothingMoreIsGivenUp) {
         now += minutes(1);
         EXPECT_EQ(take(copies), CopyStage::Writing);
     }
-    EXPECT_EQ(after(CopyOffer::patience - milliseconds(1)), CopyStage::Writing);
+    EXPECT_EQ(after(CopyOffer::timeout - milliseconds(1)), CopyStage::Writing);
     EXPECT_EQ(after(milliseconds(1)), CopyStage::Failed);
     EXPECT_NE(offer.step(now).said, "");
     EXPECT_EQ(take(written("stick1.staff")), CopyStage::Written) << "it came to its end after all";

@@ -296,7 +296,7 @@ TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_eve
                 silent_since = now;
             }
             const std::optional<ShownNotice> shown = notice.at(now);
-            if (now - silent_since >= StickNotice::look_patience + StickNotice::told_for) {
+            if (now - silent_since >= StickNotice::look_timeout + StickNotice::told_for) {
                 EXPECT_FALSE(shown);
             }
             if (shown && shown->ring) {

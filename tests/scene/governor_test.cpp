@@ -262,7 +262,7 @@ TEST(Governor, DoesNotOscillateAtAnySteadyLoad) {
 }
 
 /// The best level is slower than its initial measurement says: it is tried and left at growing intervals: 2 +
-/// 4 + ... + 2^k seconds of patience fit into the time.
+/// 4 + ... + 2^k seconds of backoff fit into the time.
 TEST(Governor, TriesAQualityLevelThatNeverFitsOnlyLogarithmicallyOften) {
     for (const double lie : {1.3, 2.0, 5.0}) {
         for (const double swing : {0.0, 0.25, 0.5}) { // a load that invites another try

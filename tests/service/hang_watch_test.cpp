@@ -26,7 +26,7 @@ std::vector<News> news_in(HangPolicy& policy, MonotonicTime& now, Nanoseconds le
     return all;
 }
 
-TEST(HangPolicy, AHangIsToldOnceAfterThePatienceAndSoIsItsEnd) {
+TEST(HangPolicy, AHangIsToldOnceAfterTheTimeoutAndSoIsItsEnd) {
     HangPolicy policy(seconds(4));
     MonotonicTime now{seconds(100)};
     EXPECT_TRUE(news_in(policy, now, milliseconds(3900), MonotonicTime(seconds(100))).empty());

@@ -12,7 +12,7 @@ using std::chrono::seconds;
 /// A healthy exhibit that a test modifies.
 struct Scene {
     MonotonicTime now{seconds(100)};
-    Judge judge{Patience{}, now};
+    Judge judge{Timeouts{}, now};
     Outcome outcome = healthy();
     Mode mode = Mode::Normal;
     bool counts = true; ///< new pictures are shown
@@ -70,7 +70,7 @@ TEST(Judge, WhatTheLastProcessSaidIsNoLifeOfTheNextOne) {
     scene.outcome.exhibit->age = seconds(1);
     EXPECT_FALSE(scene.look().trouble);
     scene.outcome.process = 322;
-    for (int second = 2; second < 50; ++second) { // its start takes long, but within the patience
+    for (int second = 2; second < 50; ++second) { // its start takes long, but within the timeout
         scene.outcome.exhibit->age = seconds(second);
         const Observation seen = scene.look();
         ASSERT_FALSE(seen.lit);
@@ -85,7 +85,7 @@ TEST(Judge, AFrozenPictureIsSeen) {
     Scene scene;
     scene.well(minutes(2));
     scene.counts = false;
-    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 20, 2); // fresh for 5 s, then a patience of 15 s
+    EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 20, 2); // fresh for 5 s, then a timeout of 15 s
 }
 
 TEST(Judge, AnOldStatusIsNoPicture) {

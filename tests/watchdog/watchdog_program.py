@@ -63,7 +63,7 @@ def main():
         fault = status["faults"][0]
         assert fault["cause"] == "keeps_ending" and fault["detail"] == "exit-code exited 1" and fault["helped"] is None, fault
         assert b"keeps_ending -> draw_plainly" in (folder / "state/faults").read_bytes()
-    wrong = subprocess.run([PROGRAM, "--start-patience", "x"], capture_output=True, text=True, check=False)
+    wrong = subprocess.run([PROGRAM, "--start-timeout", "x"], capture_output=True, text=True, check=False)
     assert wrong.returncode == 2 and wrong.stderr, wrong
 
 

@@ -36,7 +36,7 @@ void ShownSign::step_paper(double now_s, const guidance::GuidedState& tracked_st
         return;
     }
     dark_since_s_ = dark_since_s_ ? dark_since_s_ : now_s;
-    if (now_s - *dark_since_s_ < seconds_of(guidance::Guide::patience) || (shown_ && now_s < next_look_s_)) {
+    if (now_s - *dark_since_s_ < seconds_of(guidance::Guide::debounce) || (shown_ && now_s < next_look_s_)) {
         return;
     }
     next_look_s_ = now_s + seconds_of(guidance::Guide::looks_every);

@@ -15,7 +15,7 @@ namespace frustumscreen::bench {
 namespace {
 
 constexpr double step_s = 1.0 / 60.0; // the exhibit's step
-constexpr double patience_s = std::chrono::duration<double>(guidance::Guide::patience).count();
+constexpr double debounce_s = std::chrono::duration<double>(guidance::Guide::debounce).count();
 constexpr double sees_success_after_s = 0.5;
 constexpr double min_reaction_s = 0.3;
 constexpr double longest_reaction_s = 1.5;
@@ -53,7 +53,7 @@ public:
             }
             move_on();
         }
-        if (lost_since_s_ && now_s_ - *lost_since_s_ > patience_s) {
+        if (lost_since_s_ && now_s_ - *lost_since_s_ > debounce_s) {
             result.mended_s.push_back(now_s_ - *lost_since_s_); // a lower bound, as the visit ends
         }
         result.whole_share = static_cast<double>(whole) / steps;
@@ -108,7 +108,7 @@ private:
     /// The picture is whole: ends a mending movement, and starts to play after a while.
     void be_content(VisitResult& result) {
         if (lost_since_s_) {
-            if (now_s_ - *lost_since_s_ > patience_s) {
+            if (now_s_ - *lost_since_s_ > debounce_s) {
                 result.mended_s.push_back(now_s_ - *lost_since_s_);
                 next_play_s_ = now_s_ + plays_.between(2.0, 5.0);
             }

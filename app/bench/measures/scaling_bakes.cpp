@@ -37,7 +37,7 @@ private:
     std::filesystem::path file_;
 };
 
-ProgramLimits patience() {
+ProgramLimits bake_limits() {
     ProgramLimits limits;
     limits.time = std::chrono::hours(2);
     return limits;
@@ -67,7 +67,7 @@ Result<ScalingBake> bake_of_amphora(std::int64_t triangles, int size, const std:
     const Removed scan(folder / fmt::format("amphora-{}.glb", triangles));
     TRY_VOID(without_value(run_program({(programs / "frustumscreen-artifact").string(), "amphora",
                                         "--triangles", std::to_string(triangles), "-o", scan.name()},
-                                       "", patience())));
+                                       "", bake_limits())));
     return bake_of_file(scan.name(), size, programs, folder);
 }
 
@@ -76,7 +76,7 @@ Result<ScalingBake> bake_of_file(const std::filesystem::path& scan, int size,
     const Removed pack(folder / "bench-bake.fspack");
     TRY(const Bytes report, run_program({(programs / "frustumscreen-bake").string(), scan.string(), "-o",
                                          pack.name(), "--size", std::to_string(size), "--json"},
-                                        "", patience()));
+                                        "", bake_limits()));
     TRY(ScalingBake bake, scaling_bake_from(as_text(report)));
     std::error_code unknown;
     bake.scan_bytes = std::filesystem::file_size(scan, unknown);

@@ -62,7 +62,7 @@ std::optional<MonotonicTime> AutoProcedure::lit(const Input& input) const {
 
 /// Once the camera had time to start, reports that it is missing or sees nothing: Next does not begin then.
 void AutoProcedure::begin(const Input& input) {
-    word_ = input.now - *camera_well_ > patience ? AutoPrompt::CameraFault : AutoPrompt::None;
+    word_ = input.now - *camera_well_ > timeout ? AutoPrompt::CameraFault : AutoPrompt::None;
     if (input.back) {
         stage_ = problem_.empty() && plan_.crosses_follow ? Stage::GoesOn : Stage::Left;
     } else if (input.next && problem_.empty() && word_ == AutoPrompt::None) {
@@ -137,7 +137,7 @@ bool AutoProcedure::watch(const Input& input) {
         word_ = AutoPrompt::CameraFault;
         return false;
     }
-    if (input.now - *seen_ > patience) {
+    if (input.now - *seen_ > timeout) {
         word_ = AutoPrompt::NotSeen;
         still_.clear();
         return false;
@@ -206,7 +206,7 @@ void AutoProcedure::capture(const Input& input) {
         end_capture(input.now, AutoPrompt::None);
     } else if (input.prop && !still_.add(input.now, *input.prop)) {
         end_capture(input.now, AutoPrompt::Moved);
-    } else if (input.now - *seen_ > patience) {
+    } else if (input.now - *seen_ > timeout) {
         end_capture(input.now, AutoPrompt::NotSeen);
     } else if (!can_be_used(input.camera, true)) {
         end_capture(input.now, AutoPrompt::CameraFault);

@@ -87,9 +87,9 @@ void EyeProcedure::begin_rest(MonotonicTime now, EyePrompt word) {
 
 /// The sensor that the tracker does not see; None if it sees prop and head.
 EyePrompt EyeProcedure::missing(MonotonicTime now) const {
-    return now - prop_seen_ > patience   ? EyePrompt::PropNotSeen
-           : now - head_seen_ > patience ? EyePrompt::HeadNotSeen
-                                         : EyePrompt::None;
+    return now - prop_seen_ > timeout   ? EyePrompt::PropNotSeen
+           : now - head_seen_ > timeout ? EyePrompt::HeadNotSeen
+                                        : EyePrompt::None;
 }
 
 void EyeProcedure::take_rest(const Input& input) {

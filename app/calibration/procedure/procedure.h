@@ -58,7 +58,7 @@ template <typename Word, typename Judgement> class Procedure {
 public:
     using Stage = CalibrationStage;
     using Input = CalibrationInput;
-    static constexpr Nanoseconds patience =
+    static constexpr Nanoseconds timeout =
         std::chrono::seconds(2); ///< for the tracker's reports, and for a camera to start
     static constexpr Nanoseconds to_begin = std::chrono::minutes(1); ///< without a press
     static constexpr Nanoseconds to_go_on = std::chrono::minutes(10);

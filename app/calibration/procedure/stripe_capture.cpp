@@ -16,7 +16,7 @@ bool StripeCapture::step(MonotonicTime now, std::optional<MonotonicTime> lit,
         return true;
     }
     if (frame == nullptr) {
-        return now - heard_ <= patience;
+        return now - heard_ <= timeout;
     }
     heard_ = now;
     if (width_ == 0) {

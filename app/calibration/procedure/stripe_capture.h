@@ -22,7 +22,7 @@ struct CaptureSetup {
 
 class StripeCapture {
 public:
-    static constexpr Nanoseconds patience = std::chrono::seconds(3); ///< for a frame
+    static constexpr Nanoseconds timeout = std::chrono::seconds(3); ///< for a frame
 
     StripeCapture(const CaptureSetup& setup, MonotonicTime now);
 

@@ -47,7 +47,7 @@ void TouchProcedure::hold_still(const Input& input) {
             word_ = TouchPrompt::Moved;
         }
     }
-    if (input.now - seen_ > patience) {
+    if (input.now - seen_ > timeout) {
         go_to(Stage::Place, TouchPrompt::NotSeen);
     } else if (input.now - rest_began_ >= rest && still_.count() >= min_reports) {
         take();

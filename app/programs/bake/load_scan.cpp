@@ -25,7 +25,7 @@ bool has_colours(const bake::SourceMesh& mesh) {
     return !mesh.textures.empty() || !mesh.colours.empty() || !one_colour;
 }
 
-/// With --clean the flat surface under the object goes; without, it is told.
+/// --clean removes the flat surface under the object; without it the surface is reported.
 void take_away_table(bake::SourceMesh& mesh, const bake::Scraps& scraps, bool clean) {
     const bake::Scraps table = bake::find_table(mesh, scraps);
     if (table.triangles == 0) {

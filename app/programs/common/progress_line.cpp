@@ -11,7 +11,7 @@
 namespace frustumscreen::programs {
 
 namespace {
-constexpr std::chrono::seconds patience(2);
+constexpr std::chrono::seconds delay(2);
 constexpr std::chrono::milliseconds pause(100);
 } // namespace
 
@@ -25,7 +25,7 @@ ProgressLine::~ProgressLine() {
 
 bool ProgressLine::is_due() const {
     const auto now = std::chrono::steady_clock::now();
-    return on_terminal_ && now - start_ >= patience && now - last_ >= pause;
+    return on_terminal_ && now - start_ >= delay && now - last_ >= pause;
 }
 
 void ProgressLine::show(std::size_t done, std::size_t all) {

@@ -30,23 +30,23 @@ constexpr Nanoseconds between_looks = std::chrono::seconds(1);
 struct Arguments {
     std::filesystem::path run_folder = "/run/frustumscreen-watchdog";
     std::filesystem::path state_folder = "/var/lib/frustumscreen-watchdog";
-    double start_patience_s = 60.0;
+    double start_timeout_s = 60.0;
     double seconds = 0.0; ///< 0: until it is stopped
     KioskPlaces places;
 };
 
-watch::Patience patience_of(const Arguments& arguments) {
-    watch::Patience patience;
-    patience.start =
-        std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(arguments.start_patience_s));
-    return patience;
+watch::Timeouts timeouts_of(const Arguments& arguments) {
+    watch::Timeouts timeouts;
+    timeouts.start =
+        std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(arguments.start_timeout_s));
+    return timeouts;
 }
 
 class Watchdog {
 public:
     Watchdog(const Arguments& arguments, MonotonicTime now)
         : boot_id_(boot_id(arguments.places.root)), view_(arguments.places, boot_id_),
-          judge_(patience_of(arguments), now),
+          judge_(timeouts_of(arguments), now),
           memory_(arguments.state_folder / "memory", watch::number_of_boot(boot_id_)),
           faults_(arguments.state_folder / "faults"), orders_(arguments.run_folder),
           report_file_(arguments.run_folder / "status.json"),
@@ -174,7 +174,7 @@ int run(int argc, char** argv) {
         .capture_default_str();
     app.add_option("--state-folder", arguments.state_folder, "folder for data that survives a reboot")
         .capture_default_str();
-    app.add_option("--start-patience", arguments.start_patience_s, "longest start of the exhibit, seconds")
+    app.add_option("--start-timeout", arguments.start_timeout_s, "longest start of the exhibit, seconds")
         .within(5.0, 600.0)
         .capture_default_str();
     app.add_option("--root", arguments.places.root, "folder that stands for /, for tests")

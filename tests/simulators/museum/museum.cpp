@@ -51,7 +51,7 @@ public:
 
     void boot(MuseumTime now) {
         ladder_ = watch::Ladder(ladder_.memory(), true);
-        judge_ = watch::Judge(watch::Patience{}, monotonic(now));
+        judge_ = watch::Judge(watch::Timeouts{}, monotonic(now));
     }
     [[nodiscard]] watch::Mode mode() const { return ladder_.memory().mode; }
 
@@ -80,7 +80,7 @@ private:
 
     Policy policy_;
     watch::Ladder ladder_{watch::LadderMemory{}, true};
-    watch::Judge judge_{watch::Patience{}, monotonic(0)};
+    watch::Judge judge_{watch::Timeouts{}, monotonic(0)};
     MuseumTime rebooted_ = -between_reboots_s;
 };
 

@@ -232,8 +232,8 @@ void write_and_tell(const Request& request, const Contents& contents, library::I
                                  : not_written(contents.asked_by, written.error()));
 }
 
-/// Returns the exit status. The table is told at once of a stick that was pulled out, as the importer may find none to
-/// tell of.
+/// Returns the exit status. Reports a stick that was pulled out to the table at once, since the importer may no longer
+/// find it.
 int say(const Request& request, const library::ImportReport& told) {
     int status = 0;
     for (const library::ImportedPack& line : told.packs) {
