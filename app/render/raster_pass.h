@@ -55,8 +55,7 @@ public:
     /// Since then: `light_here` is to be called for each torch, in order, in place of `light`.
     [[nodiscard]] bool lights_here() const { return lights_here_; }
     /// A torch's plain light on these parts, in main memory. `shadow`: PlainLight.
-    void light_here(const scene::FramePlan& plan, std::size_t torch,
-                    const torch::ShadowMap* shadow);
+    void light_here(const scene::FramePlan& plan, std::size_t torch, const torch::ShadowMap* shadow);
     /// The tiles of a torch's own picture that these parts ask for.
     [[nodiscard]] const relief::TileMask& asked_of(std::size_t torch) const { return asked_[torch]; }
 
