@@ -138,12 +138,13 @@ void ShadowMap::end(double slack) {
 
 void ShadowMap::find_farthest() {
     farthest_.resize(nearness_.size());
+    const float max_share = max_share_;
     for (int y = part_.y; y + 1 < part_.y + part_.height; ++y) {
         const float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_;
         const float* const below = row + width_;
         Farthest* const out = farthest_.data() + static_cast<std::ptrdiff_t>(y) * width_;
         for (int x = part_.x; x + 1 < part_.x + part_.width; ++x) {
-            out[x] = farthest_of(row[x], row[x + 1], below[x], below[x + 1], max_share_);
+            out[x] = farthest_of(row[x], row[x + 1], below[x], below[x + 1], max_share);
         }
     }
 }

@@ -88,7 +88,9 @@ private:
         const float nearest = std::max(above_near, below_near);
         const float first = std::min(above_far, below_far);
         const float second = std::min(std::max(above_far, below_far), std::min(above_near, below_near));
-        const std::uint32_t which = above_far <= below_far ? (a <= b ? 0U : 1U) : (c <= d ? 2U : 3U);
+        // Each comparison by itself, so that a loop over pixels needs no branch.
+        const std::uint32_t of_above = b < a ? 1U : 0U, of_below = d < c ? 3U : 2U;
+        const std::uint32_t which = below_far < above_far ? of_below : of_above;
         constexpr float share_of_range = 0.5F;
         const auto lower = [&](float farthest) {
             return farthest - std::min(share_of_range * (nearest - farthest), max_share * farthest);
