@@ -38,21 +38,12 @@ FRUSTUMSCREEN_INLINE Floats at_pixels(const glm::vec3& linear, const PixelLanes&
     return linear.x * at.x + linear.y * at.y + linear.z;
 }
 
-/// Linear in the pixel, another one for each lane.
-struct SlantLanes {
-    Floats x, y, rest;
-    FRUSTUMSCREEN_INLINE Floats at(const PixelLanes& pixels) const {
-        return x * pixels.x + y * pixels.y + rest;
-    }
-};
-
-/// The slants of the faces that pixels light: the one whose nearest edge is farthest away.
-FRUSTUMSCREEN_INLINE SlantLanes slants_at(const NearnessView& view, const PixelLanes& at) {
-    const glm::vec3& first = view.faces[0].slant;
-    SlantLanes slants{all(first.x), all(first.y), all(first.z)};
+/// The slant of the face that each pixel lights: the one whose nearest edge is farthest away.
+FRUSTUMSCREEN_INLINE Floats slant_at(const NearnessView& view, const PixelLanes& at) {
     if (view.faces.size() == 1) {
-        return slants;
+        return at_pixels(view.faces[0].slant, at);
     }
+    Floats slant = all(1.0F);
     Floats deepest = all(-std::numeric_limits<float>::infinity());
     for (const NearnessFace& face : view.faces) {
         Floats inside = all(std::numeric_limits<float>::infinity());
@@ -62,29 +53,24 @@ FRUSTUMSCREEN_INLINE SlantLanes slants_at(const NearnessView& view, const PixelL
         for (const glm::vec3& edge : face.more_edges) {
             inside = least(inside, at_pixels(edge, at));
         }
-        const Ints deeper = inside > deepest;
-        slants.x = deeper ? all(face.slant.x) : slants.x;
-        slants.y = deeper ? all(face.slant.y) : slants.y;
-        slants.rest = deeper ? all(face.slant.z) : slants.rest;
+        slant = inside > deepest ? at_pixels(face.slant, at) : slant;
         deepest = most(deepest, inside);
     }
-    return slants;
+    return slant;
 }
 
-FRUSTUMSCREEN_INLINE PixelLanes ideal_at(const NearnessView& view, int x, int y, const glm::vec2& place) {
-    const PixelLanes at{__builtin_convertvector(lane_numbers + x, Floats) + place.x,
-                        all(static_cast<float>(y) + place.y)};
-    return view.lens.bends ? unbent(view.lens, at) : at;
-}
-
-/// The nearness of sample `k` of each of eight pixels, which light the face of their centre.
-FRUSTUMSCREEN_INLINE Floats nearness_at(const RasterSamples& samples, const NearnessView& view,
-                                        const SlantLanes& slants, int x, int y, std::size_t k) {
+/// The nearness of sample `k` of each of eight pixels.
+FRUSTUMSCREEN_INLINE Floats nearness_at(const RasterSamples& samples, const NearnessView& view, int x, int y,
+                                        std::size_t k) {
     const Floats met = load(&samples.nearness[samples.at(x, y, k)]);
     if (!any(met > 0.0F)) {
         return Floats{};
     }
-    return met > 0.0F ? met / slants.at(ideal_at(view, x, y, samples.places()[k])) : Floats{};
+    const glm::vec2& place = samples.places()[k];
+    PixelLanes at{__builtin_convertvector(lane_numbers + x, Floats) + place.x,
+                  all(static_cast<float>(y) + place.y)};
+    at = view.lens.bends ? unbent(view.lens, at) : at;
+    return met > 0.0F ? met / slant_at(view, at) : Floats{};
 }
 
 /// The nearness at the centre, from two samples on opposite sides of it: their mean if both lie on one surface, otherwise the
@@ -102,12 +88,10 @@ FRUSTUMSCREEN_INLINE void find_nearness(const RasterSamples& samples, const Near
     for (std::size_t begin = 0; begin < nearness.size(); begin += lanes) {
         const int x = first + static_cast<int>(begin);
         Floats shown{};
-        const SlantLanes slants = slants_at(view, ideal_at(view, x, y, glm::vec2(0.5F)));
         for (std::size_t k = 0; k < order.count && any(shown <= 0.0F); k += 2) {
-            const Floats one = nearness_at(samples, view, slants, x, y, order.samples[k]);
+            const Floats one = nearness_at(samples, view, x, y, order.samples[k]);
             const Floats pair =
-                order.count > 1 ? between(one, nearness_at(samples, view, slants, x, y, order.samples[k + 1]))
-                                : one;
+                order.count > 1 ? between(one, nearness_at(samples, view, x, y, order.samples[k + 1])) : one;
             shown = shown > 0.0F ? shown : pair;
         }
         std::memcpy(&nearness[begin], &shown,
