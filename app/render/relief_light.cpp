@@ -27,7 +27,7 @@ FRUSTUMSCREEN_INLINE Floats root_of(Floats values) {
     return roots;
 }
 
-/// What torch_shader.h takes as uniforms.
+/// The uniforms of torch_shader.h.
 struct Uniforms {
     PlaceMap map;
     std::array<Plane, geometry::max_face_corners> edges{}; ///< of the face; the first `edge_count`

@@ -84,7 +84,7 @@ struct PreparedLevel {
 prepare_level(const pack::Pack& pack, std::uint32_t level, const scene::ScenePlan& plan,
               std::span<const PreparedLevel> before = {},
               double max_samples_per_box = std::numeric_limits<double>::infinity());
-/// What a level that is in the store takes of it.
+/// Sets `use.gpu_bytes` to the bytes of the store that a level takes.
 void note_gpu_bytes(const render::GpuStore& store, const scene::Drawable& drawable, LevelUse& use);
 /// True if a quality level of the plan draws the relief with index `place` in this way.
 [[nodiscard]] bool draws_relief(const scene::ScenePlan& plan, std::size_t place, bool on_gpu);

@@ -1,4 +1,4 @@
-/// What a settings file has in place of an allowed value, in words for a message: 'the text "x"', '3', 'a list of 2'.
+/// Describes, for a message, the value that a settings file has in place of an allowed one: 'the text "x"', '3', 'a list of 2'.
 ///
 /// Threads  pure; any.
 /// Errors   none.

@@ -2,7 +2,7 @@
 ///
 /// Pace     `step` follows the projector's picture in each frame. A picture is drawn only once the screen shows the one
 ///          before, so the projector never waits for the screen; nothing is drawn again that did not change.
-/// Lost     a display that fails is closed and reported. It is opened again while nobody uses the exhibit, because opening reads
+/// Lost     a display that fails is closed and reported. It is opened again when the exhibit is idle, because opening reads
 ///          the room. A room that cannot be read is reported, and not read again.
 /// Context  the screen's is current only within a call; afterwards the projector's is.
 /// Time     parameters; the room's time begins with the run.

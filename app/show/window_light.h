@@ -16,7 +16,7 @@
 
 namespace frustumscreen::show {
 
-/// What lights the prop in a frame.
+/// The light on the prop in a frame.
 struct LightInProp {
     std::span<const scene::PlacedTorch> torches; ///< table frame
     geometry::RigidTransform table_from_prop;

@@ -90,7 +90,7 @@ private:
         /// Its levels may leave the memory.
         void let_go();
     };
-    /// Of windows that have gone.
+    /// Drops the copies that windows held which are no longer presented.
     void let_go(const exhibit::PresentedWindows& presented);
     [[nodiscard]] Held& held_of(const exhibit::PresentedWindow& window,
                                 const exhibit::PresentedWindows& presented,

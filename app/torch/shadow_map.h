@@ -47,8 +47,8 @@ public:
     /// Ends the map. A pixel whose first surface is turned away, by more than the share `slack` before others, is dark from the torch
     /// on: its light is inside an object there.
     void end(double slack);
-    /// What a place between the middles of a pixel and the next ones to the right and below is compared with: the three middles next
-    /// to it, between which it lies.
+    /// The nearness with which a place is compared: of the three nearest middles among a pixel and its neighbours to the right, below
+    /// and both. The place lies between these.
     struct Farthest {
         float of_four = 0.0F; ///< the least nearness of all
         /// The least of all but one, or 0: the two lowest bits say which one: 0 the pixel, 1 to the right, 2 below, 3 both. For
@@ -81,7 +81,7 @@ private:
         /// The first column and row whose pixels' middles are not left of it and not above it, within the picture.
         std::uint16_t column = 0, row = 0;
     };
-    /// Of a pixel and the ones to the right, below, and both.
+    /// Takes the nearness of a pixel (a), its neighbour to the right (b), below (c) and both (d).
     [[nodiscard]] static Farthest farthest_of(float a, float b, float c, float d, float max_share) {
         const float above_far = std::min(a, b), above_near = std::max(a, b);
         const float below_far = std::min(c, d), below_near = std::max(c, d);

@@ -81,7 +81,7 @@ struct SeenSides {
     std::uint8_t curtained = none;
 };
 
-/// Of a triangle. `curtains`: null for none.
+/// Finds the sides of a triangle that the eyes see. `curtains`: null for none.
 SeenSides sides_seen(const TriangleMesh& mesh, std::uint32_t triangle, const SourceScene& scene,
                      const SourceScene* curtains, const std::vector<glm::vec3>& eyes) {
     constexpr float lift = 2e-5F; // off the surface, box units: above 32-bit noise, below what a visitor sees

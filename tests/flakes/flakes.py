@@ -6,7 +6,7 @@ integration has it under; then the emulated machines start five times (./test hi
 three times. out/flakes remembers what has passed, run by run, and a
 hunt that was ended goes on there. The emulated machines and continuous integration begin anew with another commit, or with another
 change of the working tree. A test of ctest begins anew when its inputs change, which one more run, under strace, tells (inputs.py).
-A test that asks git, or that cannot run under strace, as with a sanitizer, begins anew with a commit, too. Tests that never passed all their runs come
+A new commit also starts the tests again that ask git, or that cannot run under strace, as with a sanitizer. Tests that never passed all their runs come
 first, and among these the ones with threads.
 
 Left out are tests that compute and do nothing else: how busy the machine is cannot change their result. The label 'computes' says so of

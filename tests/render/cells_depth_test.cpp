@@ -4,9 +4,8 @@
 #include "app/scene/error_estimate.h"
 #include "tests/render/counted_new.h"
 #include "tests/render/interlocked.h"
+#include "tests/render/keep_picture.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <string>
 
 namespace frustumscreen::synthetic {
@@ -118,15 +117,6 @@ void compare_parts(const Interlocked& world, const TestTable& table, const std::
     }
 }
 
-/// Writes a picture where DEPTH_PICTURES names a folder.
-void keep(const image::Image8& picture, const std::string& name) {
-    if (const char* const folder = std::getenv("DEPTH_PICTURES"); folder != nullptr) {
-        const Bytes bytes = image::encode_png(picture);
-        std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    }
-}
-
 std::string name_of(std::span<const Way> chosen) {
     std::string name;
     for (const Way way : chosen) {
@@ -153,7 +143,8 @@ void check(const std::string& name, const geometry::PropShape& prop, const std::
             const image::Image8 picture = world.picture(table.view());
             compare_parts(world, table, truth, picture, world.places(), samples > 1 ? 1.5 : 1.0, counts[k]);
             if (pose < 3) {
-                keep(picture, name + "_" + std::to_string(pose) + "_" + name_of(combinations[k]));
+                keep_picture(picture, "DEPTH_PICTURES",
+                             name + "_" + std::to_string(pose) + "_" + name_of(combinations[k]));
             }
         }
     }

@@ -2,23 +2,13 @@
 // intensity of their way, and shadows end within a pixel of the torch's own picture.
 
 #include "tests/render/counted_new.h"
+#include "tests/render/keep_picture.h"
 #include "tests/render/torch_compare.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <string>
 
 namespace frustumscreen::synthetic {
 namespace {
-
-/// Writes a picture where TORCH_PICTURES names a folder.
-void keep(const image::Image8& picture, const std::string& name) {
-    if (const char* const folder = std::getenv("TORCH_PICTURES"); folder != nullptr) {
-        const Bytes bytes = image::encode_png(picture);
-        std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    }
-}
 
 struct Lit {
     std::string name;
@@ -64,7 +54,7 @@ void check(const Lit& lit) {
         const image::Image8 without = picture_of(world, table, {});
         const image::Image8 with = picture_of(world, table, torches);
         Compared(world, table, torches, tolerance_of(lit)).count(without, with, counts);
-        keep(with, lit.name + "_" + std::to_string(pose));
+        keep_picture(with, "TORCH_PICTURES", lit.name + "_" + std::to_string(pose));
     }
     const std::size_t pixels = counts.lit + counts.dark;
     std::printf(

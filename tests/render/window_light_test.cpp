@@ -2,25 +2,15 @@
 // the prop, whoever looks into it, and the prop's own pixels stay as they are.
 
 #include "tests/render/counted_new.h"
+#include "tests/render/keep_picture.h"
 #include "tests/render/torch_compare.h"
 #include "tests/render/window_rig.h"
 
 #include <array>
-#include <cstdlib>
-#include <fstream>
 #include <string>
 
 namespace frustumscreen::synthetic {
 namespace {
-
-/// Writes a picture where WINDOW_PICTURES names a folder.
-void keep_lit(const image::Image8& picture, const std::string& name) {
-    if (const char* const folder = std::getenv("WINDOW_PICTURES"); folder != nullptr) {
-        const Bytes bytes = image::encode_png(picture);
-        std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    }
-}
 
 struct LitWindow {
     std::string name;
@@ -69,7 +59,7 @@ void check_light(const LitWindow& lit) {
         const std::vector<scene::PlacedTorch> moved = behind(rig.pinned.front(), pinned_at, torches);
         window[0].torches = moved;
         const image::Image8 with = rig.world.picture(rig.view(window));
-        keep_lit(with, "light_" + lit.name + "_" + std::to_string(pose));
+        keep_picture(with, "WINDOW_PICTURES", "light_" + lit.name + "_" + std::to_string(pose));
         const WindowTruth truth(rig.table, rig.pinned);
         const auto seen = [&](const glm::dvec2& pixel) {
             const glm::ivec2 at = glm::clamp(glm::ivec2(pixel), glm::ivec2(0),

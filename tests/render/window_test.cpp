@@ -1,24 +1,14 @@
 // Windows on the table, against rays: each pixel shows the surface that the eye's ray meets behind the window, the
 // prop's pixels are the same bytes as without windows, and all others stay dark.
 
+#include "tests/render/keep_picture.h"
 #include "tests/render/stereo_rig.h"
 #include "tests/render/window_rig.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <string>
 
 namespace frustumscreen::synthetic {
 namespace {
-
-/// Writes a picture where WINDOW_PICTURES names a folder.
-void keep(const image::Image8& picture, const std::string& name) {
-    if (const char* const folder = std::getenv("WINDOW_PICTURES"); folder != nullptr) {
-        const Bytes bytes = image::encode_png(picture);
-        std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    }
-}
 
 /// The part of a pixel by its colour: 0 red, 1 green, 2 blue; -1: none.
 int part_of(const glm::u8vec4& code) {
@@ -57,7 +47,7 @@ void check(const Seen& seen) {
         }
         const image::Image8 without = rig.world.picture(rig.view({}));
         const image::Image8 with = rig.picture();
-        keep(with, seen.name + "_" + std::to_string(pose));
+        keep_picture(with, "WINDOW_PICTURES", seen.name + "_" + std::to_string(pose));
         count_pixels(
             WindowTruth(rig.table, rig.pinned), tolerance_of(seen), without, with, part_of,
             [&](const glm::dvec3& from, const glm::dvec3& direction) { return rig.first(from, direction); },

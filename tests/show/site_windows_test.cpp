@@ -5,6 +5,7 @@
 #include "app/show/window_show.h"
 #include "firmware_host/display/surfaceless_display.h"
 #include "tests/render/counted_new.h"
+#include "tests/render/keep_picture.h"
 #include "tests/render/reference_cast.h"
 #include "tests/render/rig.h"
 #include "tests/show/site_pack.h"
@@ -13,8 +14,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -233,15 +232,6 @@ protected:
         }
         return counts;
     }
-    static void keep(const image::Image8& picture, const std::string& name) {
-        if (const char* const folder = std::getenv("WINDOW_PICTURES"); folder != nullptr) {
-            const Bytes bytes = image::encode_png(picture);
-            std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
-                .write(reinterpret_cast<const char*>(bytes.data()),
-                       static_cast<std::streamsize>(bytes.size()));
-        }
-    }
-
     TemporaryFolder folder_;
     std::filesystem::path file_ = folder_.path() / "site.fspack";
     settings::Settings settings_;
@@ -280,7 +270,7 @@ TEST_F(SiteWindows, PinnedInARegionShowsAllThatItsEyeSees) {
             draw(k == 0 ? std::optional(part) : std::nullopt, std::nullopt);
         }
         const image::Image8 drawn = picture();
-        keep(drawn, "site_window_" + std::to_string(k));
+        keep_picture(drawn, "WINDOW_PICTURES", "site_window_" + std::to_string(k));
         const Counts counts = compare(drawn, view, part);
         std::printf("eye %zu: %zu show something of %zu regions, %zu nothing, %zu at an outline, %zu wrong\n",
                     k, counts.shown, counts.regions.size(), counts.empty, counts.outline, counts.wrong);
@@ -308,7 +298,7 @@ TEST_F(SiteWindows, ThePreviewShowsTheMarkedRegionAsItWillStandInTheProp) {
             draw(std::nullopt, region);
         }
         const image::Image8 drawn = picture();
-        keep(drawn, "site_preview_" + std::to_string(region));
+        keep_picture(drawn, "WINDOW_PICTURES", "site_preview_" + std::to_string(region));
         const Counts counts = compare(drawn, pinned(rectangle, table_), view_at(region));
         std::printf(
             "region %zu: %zu show something of %zu regions, %zu nothing, %zu at an outline, %zu wrong\n",
