@@ -166,7 +166,7 @@ void RunCells::give(std::size_t place, const scene::Drawable& drawable, const re
 
 Result<void> RunCells::add_layer(render::GpuStore& store, const ReadLayer& layer) {
     for (std::size_t k = 0; k < cells_.size() && k < layer.cells.size(); ++k) {
-        const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
+        const std::size_t end = end_of(k);
         for (std::size_t option = cells_[k].first; option < end; ++option) {
             scene::PlacedLevel& placed = options_[option].placed;
             if (is_page(option)) { // a torch does not light the part of a site

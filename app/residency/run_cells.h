@@ -210,6 +210,7 @@ private:
     [[nodiscard]] world::CellPose pose_of(const Cell& cell) const;
     /// True if the zoom is not 1: the world reaches out of the prop.
     [[nodiscard]] bool is_beyond() const { return site_ && *site_ != world::SiteView{}; }
+    [[nodiscard]] double zoom() const { return site_ ? site_->zoom : 1.0; }
     [[nodiscard]] bool chooses_enough() const { return drawn_at_rest_ || is_site_; }
     /// Sets which options of a site are within the tolerance at its zoom.
     void judge_options();

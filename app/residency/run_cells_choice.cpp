@@ -44,8 +44,7 @@ scene::CellOption RunCells::option_of(const Option& option, double pixels, doubl
         constexpr double next_to_nothing_us = 1e-6;
         return {.error_mm = 0.0, .cost_us = next_to_nothing_us * option.triangles};
     }
-    const double zoom = site_ ? site_->zoom : 1.0;
-    return {.error_mm = zoom * option.worst_mm * (all_pixels > 0.0 ? pixels / all_pixels : 1.0),
+    return {.error_mm = zoom() * option.worst_mm * (all_pixels > 0.0 ? pixels / all_pixels : 1.0),
             .cost_us = 1e3 * ms};
 }
 
@@ -69,9 +68,8 @@ void RunCells::offer_enough(std::size_t begin, std::size_t end,
 }
 
 void RunCells::judge_options() {
-    const double zoom = site_ ? site_->zoom : 1.0;
     for (Option& option : options_) {
-        option.is_enough = is_good(option, zoom);
+        option.is_enough = is_good(option, zoom());
     }
 }
 
@@ -91,11 +89,11 @@ void RunCells::choose(MonotonicTime now, int samples, const geometry::PropShape&
         judge_options();
     }
     for (std::size_t k = 0; k < cells_.size(); ++k) {
-        const std::size_t end = k + 1 < cells_.size() ? cells_[k + 1].first : options_.size();
+        const std::size_t end = end_of(k);
         for (std::size_t option = cells_[k].first; option < end; ++option) {
             offered_[option] = rasterized_[option] =
                 option_of(options_[option], cells_[k].pixels, all_pixels, samples);
-            if (is_site_ && !is_sharp(options_[option], site_ ? site_->zoom : 1.0)) {
+            if (is_site_ && !is_sharp(options_[option], zoom())) {
                 offered_[option].cost_us = never;
             }
             if (!is_rasterized(option)) {

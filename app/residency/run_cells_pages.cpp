@@ -90,10 +90,11 @@ void RunCells::want_pages_around(const world::SiteView& view) {
     std::sort(by_distance_.begin(), by_distance_.end());
     for (const auto& [distance, k] : by_distance_) {
         // A page that is to leave for what the prop shows is not wanted back at once.
-        Option& option = options_[option_at(k, view.zoom)];
+        const std::size_t place = option_at(k, view.zoom);
+        Option& option = options_[place];
         option.kept_out = std::max(option.kept_out - 1, 0);
         const bool leaves = option.leaves && option.kept_out > 0;
-        want_page(option_at(k, view.zoom));
+        want_page(place);
         option.leaves = option.leaves || leaves;
     }
 }

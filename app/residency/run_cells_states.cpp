@@ -52,7 +52,7 @@ void RunCells::add_states(const pack::PackWorld& world, std::span<const pack::Pa
 
 std::optional<std::size_t> RunCells::window_option(std::size_t cell, bool is_mesh) const {
     const std::size_t begin = cells_[cell].first;
-    const std::size_t end = cell + 1 < cells_.size() ? cells_[cell + 1].first : options_.size();
+    const std::size_t end = end_of(cell);
     std::optional<std::size_t>
         found; // the last that is good enough, else the first: they are sorted, best first
     for (std::size_t option = begin; option < end; ++option) {
