@@ -326,6 +326,26 @@ TEST(House, EveryLinkLeadsToAFile) {
     EXPECT_GT(links, 0U);
 }
 
+TEST(House, EveryOwnerOfAThreadIsInTheTableOfThreads) {
+    static const std::regex thread_member(R"(std::j?thread>? [a-z_]+;)");
+    const std::string page =
+        frustumscreen::text_of(fs::path(frustumscreen::source_dir()) / "ARCHITECTURE.md");
+    const std::size_t begin = page.find("\n## Threads\n");
+    ASSERT_NE(begin, std::string::npos);
+    const std::string section = page.substr(begin, page.find("\n## ", begin + 1) - begin);
+    std::size_t owners = 0;
+    for (const fs::path& file : files_ending({".h"})) {
+        const std::string text = frustumscreen::text_of(fs::path(frustumscreen::source_dir()) / file);
+        if (*file.begin() == "tests" || !std::regex_search(text, thread_member)) {
+            continue;
+        }
+        ++owners;
+        const std::string name = file.parent_path().filename() / file.stem();
+        EXPECT_NE(section.find("`" + name + "`"), std::string::npos) << name;
+    }
+    EXPECT_GT(owners, 15U);
+}
+
 TEST(House, TheIndexNamesEveryPage) {
     const fs::path index = "docs/README.md";
     const std::set<fs::path> named = linked_from(index);
