@@ -10,7 +10,6 @@
 
 #include "app/geometry/prop_shape.h"
 #include "app/pack/pack.h"
-#include "app/pack/pack_outline.h"
 #include "app/pack/pack_torches.h"
 #include "assets_baked/bake/hotspots.h"
 #include "assets_baked/bake/part_light.h"
@@ -94,14 +93,5 @@ struct BakeOptions {
 /// has 4 x 4 times `size` squared texels, each of which is the mean of four; 16 times as many as its texels allow for
 /// pictures that are used in part.
 [[nodiscard]] std::int64_t useful_picture_texels(int size);
-
-/// Indices of the levels on the Pareto front of error against cost (triangles; below about 1500 a frame's
-/// cost does not depend on them), cheapest first: each has a smaller mean error than the one before, and no
-/// clearly larger 95th percentile or colour error. Levels that stray further than a visitor would accept are
-/// left out, except for the most exact one.
-/// 0.3 mm on an artifact of 0.1 m, the most that a visitor accepts.
-inline constexpr float worst_mean_box = 3e-3F;
-[[nodiscard]] std::vector<std::size_t> measured_front(const std::vector<pack::LevelOutline>& levels,
-                                                      float worst_mean = worst_mean_box);
 
 } // namespace frustumscreen::bake

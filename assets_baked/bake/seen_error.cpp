@@ -1,14 +1,12 @@
+#include "assets_baked/bake/eye_rays.h"
 #include "assets_baked/bake/level.h"
 #include "assets_baked/bake/relief_scene.h"
 #include "assets_baked/bake/seen_region.h"
-#include "firmware_host/base/parallel.h"
 #include "firmware_host/base/quantile.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -16,77 +14,6 @@
 namespace frustumscreen::bake {
 
 namespace {
-
-constexpr double eye_distance_box = 6.0;
-constexpr float no_hit = std::numeric_limits<float>::infinity();
-
-/// Rays from one eye on a square grid, through the rectangle around the box in its view.
-class EyeRays {
-public:
-    /// The number of rays is about `rays`.
-    EyeRays(const glm::dvec3& towards, const glm::dvec3& box_size, double rays) {
-        const glm::dvec3 centre(0.0, 0.0, box_size.z / 2.0);
-        const glm::dvec3 eye = centre + eye_distance_box * towards;
-        const glm::dvec3 right = glm::normalize(
-            glm::cross(-towards, std::abs(towards.z) < 0.999 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0)));
-        const glm::dvec3 up = glm::cross(right, -towards);
-        glm::dvec2 low(std::numeric_limits<double>::infinity());
-        glm::dvec2 high = -low;
-        for (unsigned k = 0; k < 8; ++k) {
-            const glm::dvec3 corner =
-                box_size *
-                glm::dvec3((k & 1U) != 0 ? 0.5 : -0.5, (k & 2U) != 0 ? 0.5 : -0.5, (k & 4U) != 0 ? 1.0 : 0.0);
-            const glm::dvec3 ray = corner - eye;
-            const glm::dvec2 at =
-                glm::dvec2(glm::dot(ray, right), glm::dot(ray, up)) / -glm::dot(ray, towards);
-            low = glm::min(low, at);
-            high = glm::max(high, at);
-        }
-        const glm::dvec2 extent = 1.02 * (high - low);
-        step_ = std::sqrt(extent.x * extent.y / rays);
-        size_ = glm::ivec2(glm::ceil(extent / step_));
-        eye_ = eye;
-        right_ = right * step_;
-        up_ = up * step_;
-        first_ = -towards + right * (0.5 * (low.x + high.x)) + up * (0.5 * (low.y + high.y)) -
-                 glm::dvec3(right_) * (0.5 * (size_.x - 1)) - glm::dvec3(up_) * (0.5 * (size_.y - 1));
-    }
-
-    [[nodiscard]] const glm::ivec2& size() const { return size_; }
-    /// The distance between neighbouring rays at the artifact.
-    [[nodiscard]] double spacing_box() const { return step_ * eye_distance_box; }
-
-    [[nodiscard]] glm::vec3 direction(int x, int y) const {
-        return glm::normalize(first_ + right_ * static_cast<float>(x) + up_ * static_cast<float>(y));
-    }
-    [[nodiscard]] std::size_t patch(int x, int y) const {
-        const int row = 4 * y / size_.y;
-        const int column = 4 * x / size_.x;
-        return static_cast<std::size_t>(row) * 4 + static_cast<std::size_t>(column);
-    }
-    [[nodiscard]] const glm::vec3& eye() const { return eye_; }
-
-    /// The distance along each ray to the surface.
-    [[nodiscard]] image::Image<float> cast(const TraceSurface& trace) const {
-        image::Image<float> distances(size_.x, size_.y, no_hit);
-        parallel_for(static_cast<std::size_t>(size_.y), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t y = begin; y < end; ++y) {
-                for (int x = 0; x < size_.x; ++x) {
-                    const SurfaceHit hit = trace(eye_, direction(x, static_cast<int>(y)));
-                    if (hit.hit) {
-                        distances.at(x, static_cast<int>(y)) = hit.distance;
-                    }
-                }
-            }
-        });
-        return distances;
-    }
-
-private:
-    glm::ivec2 size_{0};
-    double step_ = 0.0;
-    glm::vec3 eye_{0.0F}, first_{0.0F}, right_{0.0F}, up_{0.0F};
-};
 
 /// `curtains`: a ray that meets them first hits nothing; null: there are none.
 TraceSurface on(const SourceScene& scene, const SourceScene* curtains = nullptr) {
@@ -303,25 +230,6 @@ std::vector<pack::SeenError> with_edges(const std::vector<Compared>& compared,
     return errors;
 }
 
-/// Spread evenly over the zone, on a spiral of golden angles.
-std::vector<glm::dvec3> eyes_of(const ViewingZone& zone) {
-    constexpr double eyes_above_the_horizon = 90.0;
-    constexpr double margin_deg = 9.0;
-    constexpr double golden_angle = 2.399963229728653;
-    const double lowest =
-        std::sin(std::max(zone.lowest_elevation_deg + margin_deg, -90.0) * std::numbers::pi / 180.0);
-    std::vector<glm::dvec3> eyes(
-        static_cast<std::size_t>(std::ceil(eyes_above_the_horizon * (1.0 - lowest))));
-    for (std::size_t k = 0; k < eyes.size(); ++k) {
-        const double z =
-            lowest + (1.0 - lowest) * (static_cast<double>(k) + 0.5) / static_cast<double>(eyes.size());
-        const double across = std::sqrt(1.0 - z * z);
-        const double azimuth = golden_angle * static_cast<double>(k);
-        eyes[k] = {across * std::cos(azimuth), across * std::sin(azimuth), z};
-    }
-    return eyes;
-}
-
 pack::SeenErrors errors_behind(const SourceScene* curtains, const pack::Pack& pack,
                                std::span<const pack::MeasuredRelief> reliefs, const SourceScene& source,
                                const ViewingZone& zone, double share) {
@@ -365,46 +273,6 @@ pack::SeenErrors seen_errors(const pack::Pack& pack, std::span<const pack::Measu
 pack::SeenErrors seen_region_errors(const pack::Pack& pack, const SourceScene& source,
                                     const SourceScene& curtains, const ViewingZone& zone, double share) {
     return errors_behind(&curtains, pack, {}, source, zone, share);
-}
-
-pack::LevelError seen_distances(const SourceScene& surface, const TraceSurface& trace,
-                                const SourceScene& source, const glm::dvec3& box_size,
-                                const ViewingZone& zone, double share) {
-    const double rays_an_eye = 1'750.0 * share;
-    constexpr float reach = 0.2F;
-    const auto distance_to = [](const SourceScene& scene, const glm::vec3& point) {
-        const SurfaceHit hit = scene.nearest(point, reach);
-        return hit.hit ? hit.distance : reach;
-    };
-    const std::vector<glm::dvec3> eyes = eyes_of(zone);
-    std::vector<std::vector<float>> of_eyes(eyes.size());
-    parallel_for(eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            const EyeRays rays(eyes[k], box_size, rays_an_eye);
-            for (int ray = 0; ray < rays.size().x * rays.size().y; ++ray) {
-                const glm::vec3 direction = rays.direction(ray % rays.size().x, ray / rays.size().x);
-                if (const SurfaceHit hit = source.trace(rays.eye(), direction); hit.hit) {
-                    of_eyes[k].push_back(distance_to(surface, hit.point));
-                }
-                if (const SurfaceHit hit = trace(rays.eye(), direction); hit.hit) {
-                    of_eyes[k].push_back(distance_to(source, hit.point));
-                }
-            }
-        }
-    });
-    std::vector<float> distances;
-    for (const std::vector<float>& of_eye : of_eyes) {
-        distances.insert(distances.end(), of_eye.begin(), of_eye.end());
-    }
-    if (distances.empty()) {
-        return {};
-    }
-    std::sort(distances.begin(), distances.end());
-    const double sum = std::accumulate(distances.begin(), distances.end(), 0.0);
-    return {.mean_box = static_cast<float>(sum / static_cast<double>(distances.size())),
-            .p95_box = distances[distances.size() * 95 / 100],
-            .max_box = distances.back(),
-            .colour_rmse = 0.0F};
 }
 
 pack::SeenError mean_of(std::span<const pack::SeenError> seen) {

@@ -1,6 +1,7 @@
 #include "assets_baked/bake/bake.h"
 #include "assets_baked/bake/box_frame.h"
 #include "assets_baked/bake/level.h"
+#include "assets_baked/bake/level_choice.h"
 #include "tests/bake/shapes.h"
 
 #include <gtest/gtest.h>
