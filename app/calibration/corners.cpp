@@ -197,6 +197,56 @@ std::optional<VerdictReason> refusal_of(const Lines& lines) {
     return std::nullopt;
 }
 
+/// True if the ways between the distances are too short to say where the lines meet.
+bool are_too_near(const Lines& lines, const std::array<Line, 4>& fitted) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double way = min_way(lines[k], fitted[k].along);
+        const double off = (fitted[k].middle - fitted[(k + 2) % 4].middle).norm();
+        if (way < 0.05 * off) {
+            return true;
+        }
+    }
+    return false;
+}
+
+CornerCalibration refused_for(const Misfit& misfit, std::span<const MeasuredCorner> corners) {
+    CornerCalibration wrong = refused(
+        {"corners.misfit",
+         fmt::format(
+             "the {} corner does not fit the others: the line through its places passes {:.0f} mm beside "
+             "where their lines meet, which a ruler's {:.0f} mm do not explain; measure this corner "
+             "again at every distance",
+             corner_words[misfit.corner], 1e3 * misfit.off_m, 1e3 * usual_ruler_error_m)});
+    for (std::size_t row = 0; row < corners.size(); ++row) {
+        if (static_cast<std::size_t>(corners[row].corner) == misfit.corner) {
+            wrong.repeat.push_back(row);
+        }
+    }
+    return wrong;
+}
+
+/// How far the places lie from their rays, and their pixels from the picture's corners.
+void add_residuals(CornerCalibration& calibration, const Lines& lines, const Rays& rays,
+                   const TouchModel& model, const glm::ivec2& size) {
+    double count = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const glm::dvec2 corner = pixel_of(static_cast<PictureCorner>(k), size.x, size.y);
+        for (const Place& place : lines[k]) {
+            const Place from = place - rays.centre;
+            const double off = (from - from.dot(rays.along[k]) * rays.along[k]).norm();
+            const auto pixel = model.pixel(glm_vector(place));
+            const double off_px = pixel ? glm::distance(*pixel, corner) : 1e3;
+            calibration.mean_residual_m += off;
+            calibration.worst_residual_m = std::fmax(calibration.worst_residual_m, off);
+            calibration.mean_residual_px += off_px;
+            calibration.worst_residual_px = std::fmax(calibration.worst_residual_px, off_px);
+            count += 1.0;
+        }
+    }
+    calibration.mean_residual_m /= count;
+    calibration.mean_residual_px /= count;
+}
+
 } // namespace
 
 glm::dvec2 pixel_of(PictureCorner corner, int width, int height) {
@@ -215,30 +265,13 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
     }
     std::array<Line, 4> fitted;
     std::transform(lines.begin(), lines.end(), fitted.begin(), line_through);
-    for (std::size_t k = 0; k < 4; ++k) {
-        const double way = min_way(lines[k], fitted[k].along);
-        const double off = (fitted[k].middle - fitted[(k + 2) % 4].middle).norm();
-        if (way < 0.05 * off) {
-            return refused({"corners.too_near",
-                            "the two distances are too near to each other to say where the lines meet: "
-                            "measure one of them on a "
-                            "board held much nearer to the projector"});
-        }
+    if (are_too_near(lines, fitted)) {
+        return refused({"corners.too_near",
+                        "the two distances are too near to each other to say where the lines meet: "
+                        "measure one of them on a board held much nearer to the projector"});
     }
     if (const auto misfit = worst_misfit(lines)) {
-        CornerCalibration wrong =
-            refused({"corners.misfit", fmt::format("the {} corner does not fit the others: the line "
-                                                   "through its places passes {:.0f} mm beside where "
-                                                   "their lines meet, which a ruler's {:.0f} mm do not "
-                                                   "explain; measure this corner again at every distance",
-                                                   corner_words[misfit->corner], 1e3 * misfit->off_m,
-                                                   1e3 * usual_ruler_error_m)});
-        for (std::size_t row = 0; row < corners.size(); ++row) {
-            if (static_cast<std::size_t>(corners[row].corner) == misfit->corner) {
-                wrong.repeat.push_back(row);
-            }
-        }
-        return wrong;
+        return refused_for(*misfit, corners);
     }
     const Meeting meeting = meeting_of(fitted);
     Rays rays{meeting.place, {}};
@@ -271,23 +304,7 @@ CornerCalibration calibrate_corners(std::span<const MeasuredCorner> corners, int
                                                  (rays.along[1] + rays.along[2]).normalized());
     calibration.vertical_deg = degrees_between((rays.along[0] + rays.along[1]).normalized(),
                                                (rays.along[3] + rays.along[2]).normalized());
-    double count = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        for (const Place& place : lines[k]) {
-            const Place from = place - meeting.place;
-            const double off = (from - from.dot(rays.along[k]) * rays.along[k]).norm();
-            const auto pixel = model.pixel(glm_vector(place));
-            const glm::dvec2 corner = pixel_of(static_cast<PictureCorner>(k), width, height);
-            const double off_px = pixel ? glm::distance(*pixel, corner) : 1e3;
-            calibration.mean_residual_m += off;
-            calibration.worst_residual_m = std::fmax(calibration.worst_residual_m, off);
-            calibration.mean_residual_px += off_px;
-            calibration.worst_residual_px = std::fmax(calibration.worst_residual_px, off_px);
-            count += 1.0;
-        }
-    }
-    calibration.mean_residual_m /= count;
-    calibration.mean_residual_px /= count;
+    add_residuals(calibration, lines, rays, model, {width, height});
     calibration.verdict = Verdict::Usable;
     calibration.reason = {"corners.usable",
                           fmt::format("the corners lie within {:.1f} mm of four rays through one point; a "

@@ -128,6 +128,50 @@ TimeLeft time_left(const ExpectedTime& expected) {
 /// Share of the work of a bake with cells that the whole artifact is.
 constexpr double whole_share = 0.5;
 
+/// The cell that each node of the file became, if any.
+using CellsOfNodes = std::vector<std::optional<std::size_t>>;
+
+/// Divides the artifact into cells or regions, if that is wanted: into those of the file's nodes, into those that are found, or
+/// into the regions of a site. `behaviours` number their titles in `texts`.
+Result<CellsOfNodes> put_parts(pack::Pack& pack, const bake::SourceMesh& mesh, const BakeRequest& request,
+                               const bake::BakeOptions& options,
+                               const std::vector<pack::PackBehaviour>& behaviours,
+                               std::vector<pack::SetLanguage>& texts, BakeResult& result) {
+    CellsOfNodes cell_of;
+    if (result.cells.nodes) {
+        TRY(PutCells put,
+            at(request.scan.string(), put_cells(pack, mesh, behaviours, options, result.notes)));
+        result.world = std::move(put.world);
+        cell_of = std::move(put.cell_of);
+        number_titles(behaviours, result.world.behaviours, texts);
+        TRY_VOID(check_losses(result.notes, request));
+    }
+    if (result.cells.found) {
+        TRY(AutoCells found, at(request.scan.string(), put_auto_cells(pack, mesh, options)));
+        result.cells.why = std::move(found.why);
+        result.world = std::move(found.world);
+    }
+    if (request.site) {
+        TRY(MadeSite site,
+            at(request.scan.string(), put_site(pack, mesh, *request.site, options, result.notes)));
+        result.site = std::move(site.told);
+        result.world = std::move(site.world);
+        TRY_VOID(check_losses(result.notes, request));
+    }
+    return cell_of;
+}
+
+/// What the pack lacks for a kiosk.
+std::vector<std::string> missing_in(const pack::Pack& pack, const BakeRequest& request) {
+    std::vector<std::string> missing = pack::missing_in(pack, request.rights);
+    if (request.output.extension() != ".fspack" && !request.watched) {
+        missing.push_back(
+            fmt::format("the name's end: a kiosk takes only *.fspack and ignores {}; call it {}.fspack",
+                        request.output.filename().string(), request.output.stem().string()));
+    }
+    return missing;
+}
+
 Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions options) {
     const auto start = std::chrono::steady_clock::now();
     const double read = expected_time(written.scan).reading_share();
@@ -176,39 +220,14 @@ Result<BakeResult> bake_file(const BakeRequest& written, bake::BakeOptions optio
     result.scan = summary_of(mesh, measures);
     TRY(pack::Pack pack, at(request.scan.string(), bake::bake(mesh, options)));
     TRY_VOID(describe(pack, request));
-    std::vector<std::optional<std::size_t>> cell_of;
-    if (result.cells.nodes) {
+    if (in_parts) {
         begin_stages(std::lerp(read, 1.0, whole), 1.0);
-        TRY(PutCells put,
-            at(request.scan.string(), put_cells(pack, mesh, behaviours, options, result.notes)));
-        result.world = std::move(put.world);
-        cell_of = std::move(put.cell_of);
-        number_titles(behaviours, result.world.behaviours, words.set);
-        TRY_VOID(check_losses(result.notes, request));
     }
-    if (result.cells.found) {
-        begin_stages(std::lerp(read, 1.0, whole), 1.0);
-        TRY(AutoCells found, at(request.scan.string(), put_auto_cells(pack, mesh, options)));
-        result.cells.why = std::move(found.why);
-        result.world = std::move(found.world);
-    }
-    if (request.site) {
-        begin_stages(std::lerp(read, 1.0, whole), 1.0);
-        TRY(MadeSite site,
-            at(request.scan.string(), put_site(pack, mesh, *request.site, options, result.notes)));
-        result.site = std::move(site.told);
-        result.world = std::move(site.world);
-        TRY_VOID(check_losses(result.notes, request));
-    }
+    TRY(const CellsOfNodes cell_of, put_parts(pack, mesh, request, options, behaviours, words.set, result));
     TRY(std::vector<pack::PackState> states, states_of(request, mesh, result.world, cell_of));
     TRY_VOID(at(request.scan.string(), pack::put_states(pack, std::move(states))));
     result.rights = request.rights;
-    result.missing = pack::missing_in(pack, request.rights);
-    if (request.output.extension() != ".fspack" && !request.watched) {
-        result.missing.push_back(
-            fmt::format("the name's end: a kiosk takes only *.fspack and ignores {}; call it {}.fspack",
-                        request.output.filename().string(), request.output.stem().string()));
-    }
+    result.missing = missing_in(pack, request);
     pack::put_sounds(pack, words.spoken);
     pack::put_set_texts(pack, words.set);
     result.pack = std::move(pack);
