@@ -184,7 +184,7 @@ private:
     [[nodiscard]] std::optional<std::size_t> window_option(std::size_t cell, bool is_mesh) const;
     [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
                                               int samples) const;
-    /// Of one cell's options, `begin` to `end`, sets the time to infinity, except for the quickest one within the tolerance and for
+    /// Sets the time of one cell's options, `begin` to `end`, to infinity, except of the quickest one within the tolerance and of
     /// those that are quicker by a larger error.
     void offer_enough(std::size_t begin, std::size_t end, std::vector<scene::CellOption>& offered) const;
     void choose(MonotonicTime now, int samples, const geometry::PropShape& prop, const scene::PlanView& view);
