@@ -79,7 +79,7 @@ Result<OpenedDay> open_day(const fs::path& folder, std::optional<std::chrono::sy
         opened.counts = *std::move(counts);
     } else {
         TRY(const fs::path aside, put_aside(file));
-        opened.trouble = fmt::format("{}; it is now {}, and counting of the day begins again",
+        opened.trouble = fmt::format("{}; it was renamed to {}, and the day's counts begin again",
                                      counts.error().message, aside.filename().string());
     }
     return opened;

@@ -10,7 +10,7 @@
 /// Cover   Anything that touches a window makes it dark; the window dims as it comes near. A window that stays covered for
 ///         `covered` fades out and fades in at a free place; if there is none, it is put away.
 /// Side    When the reader goes to another side of the table, windows turn to that side at new places, as captions do.
-/// State   A window of an artifact's state has room for its title below it, and so have the other windows of that artifact.
+/// State   A window of an artifact's state has space for its title below it, and so do the other windows of that artifact.
 /// Lens    While the button is held and after it, the newest window's content follows the prop (window_lens.h), which then
 ///         pushes nothing.
 /// Rest    Windows go when nobody is there, and with their artifact.
@@ -64,7 +64,7 @@ public:
         glm::dvec3 eye_m{0.0};
         geometry::RigidTransform table_from_prop;       ///< as drawn
         std::optional<ViewToPin> view{};                ///< of a press; none: as the prop shows it now
-        glm::dvec2 title_m{0.0};                        ///< room for a title below a window of this artifact
+        glm::dvec2 title_m{0.0};                        ///< space for a title below a window of this artifact
         bool hold = false;                              ///< the button is held: the lens begins
         bool ends_lens = false;                         ///< another press, or the prop's pose is unknown
         std::optional<typography::TablePolygon> shadow; ///< hidden_by_prop from the lens
@@ -96,7 +96,7 @@ public:
 
 private:
     struct Window {
-        PresentedWindow pinned; ///< `rectangle` has room for the title
+        PresentedWindow pinned; ///< `rectangle` has space for the title
         glm::dvec2 title_m{0.0};
         bool lies = false;      ///< it has a place
         bool is_new = true;     ///< it has had none yet

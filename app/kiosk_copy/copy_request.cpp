@@ -102,7 +102,7 @@ read_copy_request(FileTree& stick, std::span<const pack::TrustedKey> keys, std::
     if (keys.empty()) {
         return failed(
             library::ImportRefusal::WrongKey,
-            "the kiosk's settings name no key, so it gives nothing away; bring settings with the museum's "
+            "the kiosk's settings name no key, so it copies nothing; bring settings with the museum's "
             "key first");
     }
     TRY_VOID(
@@ -118,11 +118,10 @@ read_copy_request(FileTree& stick, std::span<const pack::TrustedKey> keys, std::
                                   printable(machine, 64)));
     }
     if (today && *today > request->until) {
-        return failed(
-            library::ImportRefusal::Older,
-            fmt::format("its last day, {}, is over: here it is {}; sign one with a later day, or set "
-                        "the clock",
-                        text_of_day(request->until), text_of_day(*today)));
+        return failed(library::ImportRefusal::Older,
+                      fmt::format("its last day, {}, has passed: the kiosk's date is {}; sign one with a "
+                                  "later day, or set the clock",
+                                  text_of_day(request->until), text_of_day(*today)));
     }
     return std::optional(*request);
 }

@@ -83,8 +83,7 @@ Result<void> check_format(ZipReader& zip) {
             return {};
         }
     }
-    return bad_input("kiosk_copy.format",
-                     "it is no copy of a kiosk, or of a newer version than this kiosk's");
+    return bad_input("kiosk_copy.format", "it is not a copy of a kiosk, or a newer version wrote it");
 }
 
 Result<void> add_file(KioskCopy& copy, std::string_view name, std::string text) {

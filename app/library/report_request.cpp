@@ -43,7 +43,7 @@ std::optional<std::string> fault_of_file(const FileResult<std::string>& file, st
                            allowed);
     }
     if (number == EINVAL || number == ELOOP) {
-        return std::string("it is no ordinary file; make an empty file of this name");
+        return std::string("it is not a regular file; make an empty file of this name");
     }
     return std::nullopt;
 }

@@ -171,14 +171,14 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
     }
     std::sort(found_.packs.begin(), found_.packs.end());
     if (!misnamed_.empty() && !found_.has_exhibit_file) {
-        found_.misnamed = {
-            .file = printable(misnamed_),
-            .title = "",
-            .outcome = ImportOutcome::Refused,
-            .refusal = ImportRefusal::NotAPack,
-            .reason = fmt::format("it is not looked at; a set file is called {}, with its signature {} "
-                                  "beside it, and both lie in the stick's root",
-                                  exhibit_file_name, exhibit_signature_name)};
+        found_.misnamed = {.file = printable(misnamed_),
+                           .title = "",
+                           .outcome = ImportOutcome::Refused,
+                           .refusal = ImportRefusal::NotAPack,
+                           .reason =
+                               fmt::format("it is ignored; a set file is called {}, with its signature {} "
+                                           "beside it, and both lie in the stick's root",
+                                           exhibit_file_name, exhibit_signature_name)};
     }
     if (!misnamed_settings_.empty() && !has_settings_) {
         found_.misnamed_settings = {
@@ -186,10 +186,10 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
             .title = "",
             .outcome = ImportOutcome::Refused,
             .refusal = ImportRefusal::NotAPack,
-            .reason = fmt::format(
-                "it is not looked at; a kiosk's settings are called {} and lie in the stick's root: "
-                "rename it, and check that no .txt is hidden after the name",
-                settings_file_name)};
+            .reason =
+                fmt::format("it is ignored; a kiosk's settings are called {} and lie in the stick's root: "
+                            "rename it, and check that no .txt is hidden after the name",
+                            settings_file_name)};
     }
     if (!misnamed_request_.empty() && !has_request_) {
         found_.misnamed_request = {
@@ -199,7 +199,7 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
             .refusal = ImportRefusal::NotAPack,
             .reason =
                 fmt::format("no report was written; the file that asks for one is called {} and lies in the "
-                            "stick's root: rename it, and look that no .txt is hidden behind the name",
+                            "stick's root: rename it, and check that no .txt is hidden after the name",
                             report_request_name)};
     }
     if (!misnamed_copy_request_.empty() && !has_copy_request_) {
@@ -219,10 +219,10 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
              .title = "",
              .outcome = ImportOutcome::Refused,
              .refusal = ImportRefusal::NotAPack,
-             .reason = fmt::format(
-                 "it is not looked at; the copy of a kiosk is called {}, with its signature {}.minisig "
-                 "beside it, and both lie in the stick's root",
-                 kiosk_copy_name, kiosk_copy_name)});
+             .reason =
+                 fmt::format("it is ignored; the copy of a kiosk is called {}, with its signature {}.minisig "
+                             "beside it, and both lie in the stick's root",
+                             kiosk_copy_name, kiosk_copy_name)});
     }
     return std::move(found_);
 }

@@ -40,7 +40,7 @@ ArtifactCache::ArtifactCache(ArtifactCacheSetUp set_up, PreparedArtifact first)
         items_.push_back({artifact, std::nullopt, 0});
         records_.push_back({expected_bytes(of, texture_bytes)});
         for (std::size_t language = 0; language < of.texts.entry.languages.size(); ++language) {
-            for (const TextPart part : {TextPart::Caption, TextPart::NarrationSequencer}) {
+            for (const TextPart part : {TextPart::Caption, TextPart::Narration}) {
                 items_.push_back({artifact, part, language});
                 records_.push_back({text_bytes(of.texts.entry, part, language, set_up_.style)});
             }

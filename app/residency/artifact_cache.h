@@ -8,8 +8,8 @@
 ///          comes after it, only in the chosen language. Artifacts that may be chosen next bring their
 ///          captions; the chosen one's captions in the other languages come last. Texts stay while they are
 ///          shown and while the budget allows, and no longer than their artifact.
-/// Pages    of the site on show (RunCells) come after all that is needed, while the budget allows; a page that a picture or a window still
-///          shows stays until that has ended.
+/// Pages    of the shown site (RunCells) are loaded after everything needed, while the budget allows; a page stays as
+///          long as the picture or a window shows it.
 /// Budget   counts an artifact's GPU memory and main memory from the moment that it is prepared. While one is
 ///          read, its file's parts and one level of it are needed in addition.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context

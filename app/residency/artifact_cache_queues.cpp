@@ -46,9 +46,9 @@ ArtifactCache::Queue ArtifactCache::needed(const CacheRequest& request) const {
         add_text(needed, request.wanted.front(), TextPart::Caption, request.language);
         needed.add(levels_item(request.wanted.front()));
     }
-    add_text(needed, request.shown, TextPart::NarrationSequencer, request.shown_language);
+    add_text(needed, request.shown, TextPart::Narration, request.shown_language);
     if (!request.wanted.empty()) {
-        add_text(needed, request.wanted.front(), TextPart::NarrationSequencer, request.language);
+        add_text(needed, request.wanted.front(), TextPart::Narration, request.language);
     }
     return needed;
 }
@@ -78,7 +78,7 @@ void ArtifactCache::note_shown(const CacheRequest& request) {
     Queue shown;
     shown.add(levels_item(request.shown));
     add_text(shown, request.shown, TextPart::Caption, request.shown_language);
-    add_text(shown, request.shown, TextPart::NarrationSequencer, request.shown_language);
+    add_text(shown, request.shown, TextPart::Narration, request.shown_language);
     add_pages(shown, request.shown);
     for (const std::size_t item : shown.items()) {
         records_[item].last_shown = shows_;

@@ -43,12 +43,12 @@ struct ArtifactTexts {
 
 /// Captions are small and are loaded before the artifact. The narration can only be requested once the
 /// artifact is chosen.
-enum class TextPart : std::uint8_t { Caption, NarrationSequencer };
+enum class TextPart : std::uint8_t { Caption, Narration };
 inline constexpr std::size_t text_parts = 2;
 
-/// The part's pictures: of a caption, by width, and by width again without its attribution, if it has one, then the
-/// titles of behaviours, of what torches throw and of states; of the narration, by portion and width, with the attribution as the last portion, then the
-/// hotspots' labels.
+/// The part's pictures, in this order. Caption: by width; by width again without its attribution, if it has one; titles of
+/// behaviours, of torches' contents and of states. Narration: by portion and width, the attribution as the last portion;
+/// labels of the hotspots.
 [[nodiscard]] std::size_t portion_picture(std::size_t portion, std::size_t shape);
 [[nodiscard]] std::size_t label_picture(const exhibit::CatalogueEntry& entry, std::size_t language,
                                         std::size_t hotspot);

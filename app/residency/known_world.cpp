@@ -32,7 +32,7 @@ Result<PreparedLevel> read_level(const std::filesystem::path& file, const KnownW
     return prepare_level(*pack, level, cell.plan, {}, max_samples_per_box);
 }
 
-/// Reads the stand-in; all levels are pages.
+/// Reads the proxy; all levels are pages.
 Result<void> prepare_region(const std::filesystem::path& file, const KnownWorld& known, const KnownCell& cell,
                             double texels_per_m, const std::function<bool()>& given_up,
                             PreparedCells& cells) {
@@ -48,9 +48,9 @@ Result<void> prepare_region(const std::filesystem::path& file, const KnownWorld&
         page.box_size = cell.outline.description.box_size;
         page.samples = cell.outline.description.samples;
     }
-    TRY(PreparedLevel stand_in,
+    TRY(PreparedLevel proxy,
         read_level(file, known, cell, ways.back().level, texels_per_m * cell.plan.metres_per_box));
-    cells.levels.push_back(std::move(stand_in));
+    cells.levels.push_back(std::move(proxy));
     cells.options.push_back(ways.size() + 1);
     return {};
 }

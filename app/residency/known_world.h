@@ -1,8 +1,8 @@
 /// The cells of an artifact that its behaviours move, or that are drawn at rest: how each is drawn, before any of it is
 /// loaded, and their levels, read and ready to upload.
 ///
-/// Site     of a region, the coarsest level is read with its artifact, with no more of its texture than the miniature has there: its stand-in. All of
-///          its levels are pages, each read with the whole texture when it is wanted (RunCells::wanted_pages).
+/// Site     each region has a proxy, read with the artifact: its coarsest level, with texels no finer than the miniature's.
+///          All of a region's levels are pages, each read with its whole texture when wanted (RunCells::wanted_pages).
 /// Memory   before the artifact is about to be shown, only the manifests: no curves. While cells are prepared, one cell's pack at a time.
 /// Threads  pure except for reading the file; any.
 /// Errors   as load_pack and plan_cell; a pack that has changed since its plan was made.
@@ -35,9 +35,8 @@ struct KnownWorld {
     double tolerance_mm = 0.0; ///< of a site's regions at any zoom
 };
 
-/// Null: no cell is ever drawn, since the pack has no behaviours, is no site, its cells are not for rest or a technique is asked for
-/// that is not `auto`, and no window shows a state without some of them. `whole`: the artifact's plan; `request`: the one that it
-/// was made for.
+/// Null: no cell is ever drawn. Cells are drawn for behaviours, in a site, at rest (PackWorld::drawn_at_rest, technique `auto`)
+/// and for a window's state that hides some of them. `whole`: the artifact's plan; `request`: the request that it was made for.
 [[nodiscard]] Result<std::shared_ptr<const KnownWorld>> open_world(const settings::Settings& settings,
                                                                    const std::filesystem::path& file,
                                                                    const pack::PackDescription& pack,
@@ -54,14 +53,14 @@ open_cells(const settings::Settings& settings, const std::filesystem::path& file
 
 /// The ways in which a quality level draws a cell, each once, best first.
 [[nodiscard]] std::vector<scene::QualityLevel> ways_of(const scene::ScenePlan& plan);
-/// The same for a region of a site, finest first: which is good enough depends on the zoom.
+/// The same for a region of a site, finest first: the zoom decides which of them is good enough.
 [[nodiscard]] std::vector<scene::QualityLevel> region_ways_of(const scene::ScenePlan& plan);
 
 /// A level of a region, read after its artifact.
 struct PageName {
     std::size_t drawn = 0;   ///< index into KnownWorld::drawn
     std::uint32_t level = 0; ///< of the region's pack
-    std::size_t place = 0;   ///< index into PreparedCells::levels; the region's stand-in follows its pages
+    std::size_t place = 0;   ///< index into PreparedCells::levels; the region's proxy follows its pages
 };
 /// None for a world that is no site.
 [[nodiscard]] std::vector<PageName> pages_of(const KnownWorld& known);
@@ -78,7 +77,7 @@ struct PreparedCells {
     std::vector<PreparedLevel> levels;
 };
 /// `given_up`: asked between two levels; true cancels the preparation. `texels_per_m`: of the whole artifact's texture, on its surface in the
-/// prop; a region's stand-in has no finer one.
+/// prop; a region's proxy has no finer one.
 [[nodiscard]] Result<PreparedCells>
 prepare_cells(const std::filesystem::path& file, const KnownWorld& known,
               const std::function<bool()>& given_up,

@@ -86,7 +86,7 @@ private:
         bool is_solid_known = false;
         double solid_urgency = 0.0;
     };
-    /// `way` is the number of the ways: the solid.
+    /// A way of a model; if `way` equals the number of its ways, the model's solid.
     struct Place {
         std::size_t model = 0, way = 0;
         [[nodiscard]] bool operator==(const Place&) const = default;

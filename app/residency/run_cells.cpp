@@ -111,11 +111,10 @@ RunCells::RunCells(const pack::PackWorld& world, const KnownWorld& known, const 
         }
         if (is_site_) {
             options_[options_.size() - 2].sharp_from =
-                options_.back().sharp_to; // the same level as the stand-in
+                options_.back().sharp_to; // the same level as the proxy
         }
         indices += largest[0] + largest[1];
-        cell.wanted = cell.shown =
-            cells.options[k] - 1; // a region's stand-in; others choose before they draw
+        cell.wanted = cell.shown = cells.options[k] - 1; // a region's proxy; others choose before they draw
         const pack::PackCell& own = known.world.cells[cell.number];
         regions_.push_back({own.low, own.high});
     }

@@ -15,9 +15,9 @@
 /// Site     of a site (pack_site.h) a part can be shown large (site_view.h). Then the cells are drawn, cut off by the prop's faces;
 ///          those that no face shows are left out. An error of a cell grows with the zoom, so finer levels come by the rule of cells that
 ///          are drawn at rest. The picture fades from the whole to the cells; the caller leaves the zoom at 1 for as long.
-/// Pages    of a site's region only its stand-in comes with the artifact (known_world.h). Its levels are pages: `wanted_pages` names those
-///          that the place needs, then those of the places in windows; the caller gives them when they are in the store, and a cell fades
-///          to them. Until then, and where the memory is too small, the next coarser level that is there is drawn, at last the stand-in.
+/// Pages    a site's region comes with the artifact as a proxy alone (known_world.h); its levels are pages. `wanted_pages` names those
+///          that the shown part needs, then those of the parts in windows. The caller gives a page once it is in the store, and the cell
+///          fades to it. Until then, and if memory is short, the next coarser level in the store is drawn, at last the proxy.
 /// Threads  constructed on any thread; everything else on the render thread, with the display's context current.
 ///          `step`, `draw` and `record_time` allocate nothing.
 /// Errors   none.
@@ -72,8 +72,8 @@ public:
     /// A page is in the store.
     void give_page(std::size_t place, const PreparedLevel& level, const scene::Drawable& drawable,
                    const render::GpuStore& store);
-    /// Stops drawing a page, by a fade where it is drawn. True: nothing shows it any more, no window either, and it may leave the store; then call
-    /// `take_page`.
+    /// Stops drawing a page, by a fade if it is visible. True: neither the prop nor a window shows it, so it may leave the store; then
+    /// call `take_page`.
     [[nodiscard]] bool let_go(std::size_t place);
     void take_page(std::size_t place);
 
@@ -95,7 +95,7 @@ public:
     [[nodiscard]] std::optional<world::SiteView> shown_part() const {
         return is_beyond() ? site_ : std::nullopt;
     }
-    /// The region that is gone to, or may be next, and how large it will be.
+    /// The region that the view travels to, or may travel to next, and how large it will be.
     struct Goal {
         std::size_t region = 0; ///< of the site's
         world::SiteView view;
@@ -159,15 +159,16 @@ private:
         scene::SeenLevel seen;
         scene::PlacedLevel placed;
         double worst_mm = 0.0;
-        double triangles = 0.0;  ///< or blocks
-        bool is_enough = false;  ///< within the tolerance, at the zoom of this frame
-        double enough_to = 0.0;  ///< of a site: the largest zoom at which its surface is within the tolerance
-        double sharp_from = 0.0; ///< of a site: below, the stand-in with the same surface takes its place
+        double triangles = 0.0; ///< or blocks
+        bool is_enough = false; ///< within the tolerance, at the zoom of this frame
+        double enough_to = 0.0; ///< of a site: the largest zoom at which its surface is within the tolerance
+        double sharp_from =
+            0.0; ///< of a site: below this zoom the proxy, with the same surface, is drawn instead
         double sharp_to =
             std::numeric_limits<double>::infinity(); ///< the largest zoom at which its texture is fine enough
         bool there = true;                           ///< false: a page that is not in the store
         bool leaves = false;                         ///< a page that is not to be drawn any more
-        int kept_out = 0;                            ///< steps for which no window takes it again
+        int kept_out = 0; ///< steps during which windows do not want the page again
     };
     struct Cell {
         std::size_t number = 0;       ///< index into the player's cells
@@ -183,8 +184,8 @@ private:
     [[nodiscard]] std::optional<std::size_t> window_option(std::size_t cell, bool is_mesh) const;
     [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
                                               int samples) const;
-    /// Makes infinite the time of those options from `begin` to `end`, one cell's, that are neither as quick as its quickest
-    /// one within the tolerance nor save time by a larger error.
+    /// Sets the time of one cell's options, `begin` to `end`, to infinity, except of the quickest one within the tolerance and of
+    /// those that are quicker by a larger error.
     void offer_enough(std::size_t begin, std::size_t end, std::vector<scene::CellOption>& offered) const;
     void choose(MonotonicTime now, int samples, const geometry::PropShape& prop, const scene::PlanView& view);
     [[nodiscard]] std::size_t end_of(std::size_t cell) const {
@@ -192,7 +193,7 @@ private:
     }
     /// The option drawn of a cell in place of the wanted one: the same if it is there.
     [[nodiscard]] std::size_t nearest_there(const Cell& cell) const;
-    /// False: its stand-in, or the page of the same level, is drawn at this zoom.
+    /// False: at this zoom the proxy, or the page of the same level, is drawn instead.
     [[nodiscard]] static bool is_sharp(const Option& option, double zoom) {
         return option.sharp_from < zoom && zoom <= option.sharp_to;
     }

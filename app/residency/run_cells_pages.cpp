@@ -33,7 +33,7 @@ std::size_t RunCells::nearest_there(const Cell& cell) const {
         }
     }
     std::size_t option = cell.wanted;
-    while (!can_show(option)) { // the stand-in is always there
+    while (!can_show(option)) { // the proxy is always there
         ++option;
     }
     return option;
@@ -134,11 +134,11 @@ void RunCells::want_pages() {
 std::uint64_t RunCells::page_texture_bytes(std::size_t place) const {
     const auto after = std::upper_bound(cells_.begin(), cells_.end(), place,
                                         [](std::size_t p, const Cell& cell) { return p < cell.first; });
-    const LevelUse& stand_in = uses_[end_of(static_cast<std::size_t>(after - cells_.begin()) - 1) - 1];
+    const LevelUse& proxy = uses_[end_of(static_cast<std::size_t>(after - cells_.begin()) - 1) - 1];
     constexpr std::uint64_t per_texel = sizeof(glm::u8vec4);
     const auto texels =
-        static_cast<std::uint64_t>(stand_in.texture.x) * static_cast<std::uint64_t>(stand_in.texture.y)
-        << static_cast<unsigned>(2 * stand_in.finest_mip);
+        static_cast<std::uint64_t>(proxy.texture.x) * static_cast<std::uint64_t>(proxy.texture.y)
+        << static_cast<unsigned>(2 * proxy.finest_mip);
     return per_texel * texels * 4 / 3; // with its mip levels
 }
 

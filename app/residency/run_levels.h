@@ -74,12 +74,12 @@ struct PreparedLevel {
     std::vector<scene::LeftOut> left_out;
     scene::LevelData data;
     std::size_t texture = 0; ///< of the pack; not for a relief
-    /// Times its size in the plan up to which the kept part of its texture shows as much as all of it.
+    /// The largest enlargement, relative to the plan, at which the kept mip levels show as much as the whole texture.
     double sharp_to = std::numeric_limits<double>::infinity();
 };
-/// `level`: one of the plan's; `before`: other levels of the pack, which are uploaded before it: it shares a texture of theirs, if it can
-/// (LevelData::texture_of, an index into `before`). `max_samples_per_box`: finer mip levels than a picture with so many samples along a box
-/// unit needs are left out. Pure; slow.
+/// `level`: one of the plan's. `before`: other levels of the pack, uploaded before it, whose texture it shares if it can
+/// (LevelData::texture_of, an index into `before`). `max_samples_per_box`: samples of the picture along a box unit; mip levels
+/// finer than that are left out. Pure; slow.
 [[nodiscard]] PreparedLevel
 prepare_level(const pack::Pack& pack, std::uint32_t level, const scene::ScenePlan& plan,
               std::span<const PreparedLevel> before = {},
@@ -146,13 +146,13 @@ public:
                                           std::span<const scene::PlanView> views, render::Renderer& renderer,
                                           const render::RenderTarget& target, render::Redraw redraw,
                                           std::span<const scene::Part> marks = {});
-    /// The plan of each eye's picture, to lend it room for windows.
+    /// The plan of each eye's picture, to lend it space for windows.
     [[nodiscard]] std::span<scene::FramePlan> plans() { return plans_; }
     /// The level that `draw` draws, without its fade.
     [[nodiscard]] scene::PlacedLevel shown() const { return placed(shown_); }
     /// Its name among the pack's levels and reliefs.
     [[nodiscard]] const scene::QualityLevel& shown_quality() const { return levels_[shown_].shows; }
-    /// A mesh about as exact as what `draw` draws, in a layer's colours. None: there is no mesh, or the layer is not there.
+    /// A mesh about as exact as the drawn level, in a layer's colours. None: there is no mesh, or the layer is not loaded.
     [[nodiscard]] std::optional<scene::PlacedLevel> in_layer(std::size_t layer) const;
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);

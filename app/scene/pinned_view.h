@@ -7,7 +7,7 @@
 ///          eye sees whole in the window, with a margin; its size and its distance from the eye follow from both.
 /// Frames   table T; prop P; window: origin in its middle on the table, z up, y away from whoever pins it at yaw 0.
 /// Units    metres.
-/// Threads  pure; any. Nothing allocates into a view that was made before; `move_behind` neither if its target has room.
+/// Threads  pure; any. Nothing allocates into a view that was made before; `move_behind` neither if its target has the capacity.
 /// Errors   nullopt, false: the eye is not above the table, or a number is not finite.
 #pragma once
 

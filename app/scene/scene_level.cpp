@@ -188,7 +188,7 @@ std::vector<LeftOut> left_out_of(const ScenePlan& plan, const SceneLevel& level,
     if (const int samples = needs_of(plan, level).samples; samples < plan.needs.samples) {
         left_out.push_back(
             {UnusedDetail,
-             fmt::format("room for {} samples a pixel; room for {} is enough", plan.needs.samples, samples),
+             fmt::format("space for {} samples a pixel; space for {} is enough", plan.needs.samples, samples),
              "no pose is seen so slantingly that it takes more"});
     }
     return left_out;

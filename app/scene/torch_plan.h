@@ -4,7 +4,7 @@
 /// `plan_frame` plans it too. Its depth tells the places that the torch sees from those in shadow.
 ///
 /// Frames   as frame_plan.h; torch: torch/torch.h.
-/// Threads  pure; any. Allocates nothing into a plan that was made with room for torches.
+/// Threads  pure; any. Allocates nothing into a plan that was made with space for torches.
 #pragma once
 
 #include "app/geometry/collineation.h"

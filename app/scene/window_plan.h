@@ -4,7 +4,7 @@
 /// Cover    the prop is nearer to the projector than the table is. Where its outline in the picture, a pixel wider, meets a
 ///          window, the window is not drawn.
 /// Frames   as frame_plan.h.
-/// Threads  pure; any. Allocates nothing into a plan that was made with room for windows.
+/// Threads  pure; any. Allocates nothing into a plan that was made with space for windows.
 /// Errors   none: a window that the eye sees from behind, or that the projector does not light, shows nothing.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace frustumscreen::scene {
 void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts,
                        bool torches = false);
 
-/// Plans the view's windows. Those for which the plan has no room are left out.
+/// Plans the view's windows. Those for which the plan has no space are left out.
 void plan_windows(const geometry::PropShape& prop, const PlanView& view, FramePlan& plan);
 
 } // namespace frustumscreen::scene

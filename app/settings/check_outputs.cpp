@@ -127,7 +127,7 @@ void check_screen(const Settings& settings, Fitness& fitness) {
                                  std::fabs(glm::dot(across, down)) / std::fmax(shorter, min_m));
     fitness.require(
         "settings.screen_no_rectangle", off <= max_skew * longer, "screen.corners_m",
-        fmt::format("is no rectangle: it is {:.1f} mm off; allowed are at most {:.1f} mm. The order "
+        fmt::format("is not a rectangle: it is {:.1f} mm off; allowed are at most {:.1f} mm. The order "
                     "is top left, top right, bottom right, bottom left",
                     1e3 * off, 1e3 * max_skew * longer));
     const glm::dvec3 out = glm::cross(down, across); // of the screen, towards the people before it

@@ -36,8 +36,8 @@ void ArtifactShow::place_hotspot(const exhibit::Presentation& presentation) {
     }
     const exhibit::PresentedHotspot& hotspot = *presentation.hotspot;
     const exhibit::CatalogueEntry& entry = catalogue()[hotspot.artifact];
-    const residency::LoadedTexts* const texts = set_->artifact_cache->texts(
-        hotspot.artifact, residency::TextPart::NarrationSequencer, hotspot.language);
+    const residency::LoadedTexts* const texts =
+        set_->artifact_cache->texts(hotspot.artifact, residency::TextPart::Narration, hotspot.language);
     if (texts != nullptr) {
         hotspots_.place(hotspot,
                         texts->texture(residency::label_picture(entry, hotspot.language, hotspot.hotspot)),
@@ -103,8 +103,7 @@ ArtifactShow::place_caption(const exhibit::Presentation& presentation) const {
     const exhibit::PresentedCaption& caption = *presentation.caption;
     const residency::LoadedTexts* const texts = set_->artifact_cache->texts(
         presentation.artifact,
-        caption.portion ? residency::TextPart::NarrationSequencer : residency::TextPart::Caption,
-        caption.language);
+        caption.portion ? residency::TextPart::Narration : residency::TextPart::Caption, caption.language);
     const scene::TextureId texture =
         texts != nullptr
             ? texts->texture(residency::portion_picture(caption.portion.value_or(0), caption.shape))

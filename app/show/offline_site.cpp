@@ -64,9 +64,8 @@ Result<world::SiteView> offline_site_view(const std::filesystem::path& file,
                                           const OfflineSite& site) {
     TRY(const std::vector<pack::SiteRegion> packed, pack::site_regions_of(pack));
     if (packed.empty()) {
-        return bad_input(
-            "render.no_site",
-            "--site: the pack is no site; bake it with [site] in its artifact.toml, or leave the option out");
+        return bad_input("render.no_site", "--site: the pack is not a site; bake it with [site] in its "
+                                           "artifact.toml, or leave the option out");
     }
     std::vector<world::RegionBox> regions;
     for (const pack::SiteRegion& region : packed) {

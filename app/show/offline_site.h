@@ -1,7 +1,7 @@
-/// Where `frustumscreen render --site` stands: the part of a site around a place of its ground.
+/// The view of `frustumscreen render --site`: the part of a site around a place of its ground.
 ///
 /// Ground   the region's own (pack_site.h). On a steep slope it is raised, so that the site's surface at the place is not above the prop's
-///          middle; else the prop would stand inside the hill.
+///          middle: the prop would then be inside the hill.
 /// Frame    box of the whole site.
 /// Threads  any.
 /// Errors   a pack that is no site, a place beside it; as load_cell.

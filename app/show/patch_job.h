@@ -6,7 +6,7 @@
 ///          draws; it never waits and allocates nothing.
 /// Memory   until all patches are made, the world's triangles and the cameras' pictures; then the patches, up to `max_bytes` of
 ///          `PatchJobSetUp`.
-/// Errors   a world that cannot be read has no patches: its window goes on as it was drawn.
+/// Errors   a world that cannot be read has no patches: its window is drawn as before.
 #pragma once
 
 #include "app/ldi/point_maker.h"

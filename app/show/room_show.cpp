@@ -210,7 +210,7 @@ void RoomShow::add_part(std::uint32_t object, std::uint32_t way, const std::opti
     part.level.prop_from_placed = view_.objects()[object].table_from_object;
     part.dither = dither;
     indices_ += part.level.triangles ? part.level.triangles->indices.size() : 0;
-    if (indices_ > max_indices_) { // the plans have no room for it
+    if (indices_ > max_indices_) { // the plans have no space for it
         indices_ -= part.level.triangles->indices.size();
         parts_.pop_back();
     }

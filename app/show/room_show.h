@@ -15,7 +15,7 @@
 /// Threads  the render thread, with the display's context current, including destruction. `draw` allocates nothing once everything is
 ///          loaded and as much was drawn before.
 /// Errors   as read_room and know_model; a driver without memory. Live, a pack that cannot be opened or read is missing, with
-///          one sentence (`faults`), and the rest stands.
+///          one sentence (`faults`), and the rest is shown.
 #pragma once
 
 #include "app/render/renderer.h"
@@ -58,11 +58,11 @@ public:
 
     /// Counts of the latest picture.
     struct Counts {
-        std::size_t in_view = 0; ///< objects that the eye's pyramid meets
+        std::size_t in_view = 0; ///< objects in the eye's frustum
         std::size_t seen = 0;    ///< of these, that are not certainly hidden
         std::size_t drawn = 0;   ///< of these, that are loaded
         std::size_t fading = 0;
-        bool is_short = false; ///< some objects are coarser than good enough, for lack of time
+        bool is_short = false; ///< for lack of time, some objects are coarser than the tolerance
     };
 
     /// The settings must have a screen.

@@ -31,8 +31,8 @@ struct PlacedObject {
     double radius_m = 0.0;      ///< of a ball around its box
     double silhouette_m2 = 0.0; ///< of its box, the mean over all directions
     double away_m = 0.0;        ///< at least, from the nearest eye
-    bool is_in_view = false;    ///< some eye's pyramid holds a part of it
-    bool is_seen = false;       ///< and nothing hides it certainly
+    bool is_in_view = false;    ///< part of it is in some eye's frustum
+    bool is_seen = false;       ///< in view and not certainly hidden
 };
 
 class RoomView {

@@ -50,8 +50,8 @@ library::SetVerdict SetTrial::told() const {
     return {.number = verdict_.number,
             .state = library::TrialState::Bad,
             .starts = verdict_.starts,
-            .reason =
-                "the watchdog returned to the previous set; it tries this one again after ten good minutes"};
+            .reason = "the watchdog returned to the previous set; it tries this one again after ten minutes "
+                      "without a fault"};
 }
 
 void SetTrial::shown(MonotonicTime now, std::uint64_t number, const std::string& fault) {

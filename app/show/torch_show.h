@@ -1,5 +1,5 @@
-/// Torches in the picture: what they throw onto the artifact, and the faint spots of their beams on the table, by which
-/// people find them.
+/// Torches in the picture: their contents on the artifact, and faint spots on the table that show people where the beams
+/// meet it.
 ///
 /// Frames   table T.
 /// Threads  the render thread. Allocates nothing after `prepare`.

@@ -53,7 +53,7 @@ public:
     /// Uploads the frame's texel.
     [[nodiscard]] Result<void> prepare(render::GpuStore& store);
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
-    /// Makes room for all that the artifacts of this set may show, and forgets the windows of another one.
+    /// Makes space for all that the artifacts of this set may show, and forgets the windows of another one.
     void make_space(const residency::ArtifactCache& cache);
 
     /// The layers that the states of the artifact on show need, once for each.
@@ -71,7 +71,7 @@ public:
     [[nodiscard]] std::span<const scene::PlacedWindow>
     sample(const scene::PlacedLevel& level, const glm::dvec2& place_m, const glm::dvec3& eye_m);
 
-    /// Gives the plans, one for each eye, room for windows, or takes it back.
+    /// Gives the plans, one for each eye, space for windows, or takes it back.
     void swap_space(std::span<scene::FramePlan> plans);
 
 private:
@@ -141,7 +141,7 @@ private:
     FrozenWindows frozen_;
 };
 
-/// Gives plans room for windows while a frame is drawn.
+/// Gives plans space for windows while a frame is drawn.
 class LentSpace {
 public:
     /// `windows`: null: there are none.

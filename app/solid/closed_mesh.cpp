@@ -63,7 +63,7 @@ Result<void> check_counts(const PolygonMesh& mesh) {
     return bad_input(
         "prop_file.too_many",
         "it has {} polygons with {} corners, allowed are {} with {}; a prop has 4 to 16 flat faces, and "
-        "a scan is no prop: draw its shape alone",
+        "a scan is not a prop: draw its shape alone",
         mesh.polygons.size(), corners, max_polygons, max_corners);
 }
 

@@ -17,7 +17,7 @@ void TagTracker::use(const camera::CameraFrame& frame) {
 
 std::string_view TagTracker::trouble() const {
     return misshapen_
-               ? "the camera's frames have another shape than the settings say, so that tags are of no use; "
+               ? "the camera's frames have another aspect ratio than in the settings, so no tag is read; "
                  "set camera.width and camera.height to a size that frustumscreen camera lists"
                : std::string_view{};
 }

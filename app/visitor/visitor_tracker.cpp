@@ -10,7 +10,7 @@ void VisitorTracker::use(const camera::CameraFrame& frame) {
 
 std::string_view VisitorTracker::trouble() const {
     return misshapen_
-               ? "the camera's frames have another shape than the settings say, so that no visitor is seen; "
+               ? "the camera's frames have another aspect ratio than in the settings, so no visitor is seen; "
                  "set camera.width and camera.height to a size that frustumscreen camera lists"
                : std::string_view{};
 }

@@ -22,7 +22,7 @@ constexpr std::array<Words, step_count> steps{{
     {"restart_exhibit", "the exhibit is started again"},
     {"reset_device", "the tracker's USB port is switched off and on"},
     {"last_good_set", "the exhibit goes back to the last good set of objects"},
-    {"draw_plainly", "the exhibit draws in the plainest way, without the graphics card's help"},
+    {"draw_plainly", "the exhibit draws on the processor, without the graphics card"},
     {"built_in", "the exhibit shows the object that is built in"},
     {"safe_picture", "words for the staff are shown in place of the exhibit"},
     {"reboot", "the computer is started again"},
@@ -31,7 +31,7 @@ constexpr std::array<Words, step_count> steps{{
 constexpr std::array<Words, mode_count> modes{{
     {"normal", "lets the exhibit run as set up"},
     {"last_good_set", "lets the exhibit show the last good set of packs"},
-    {"plain", "lets the exhibit draw in the plainest way"},
+    {"plain", "lets the exhibit draw on the processor alone"},
     {"built_in", "lets the exhibit show a built-in artifact"},
     {"safe", "shows the safe picture, with words for the staff"},
 }};
@@ -58,7 +58,7 @@ std::string_view sentence_of(Cause cause) {
     return causes.at(static_cast<std::size_t>(cause)).sentence;
 }
 std::string_view sentence_of(const std::optional<Cause>& cause) {
-    return cause ? sentence_of(*cause) : "ten good minutes";
+    return cause ? sentence_of(*cause) : "ten minutes without a fault";
 }
 std::string_view word_of(Step step) {
     return steps.at(static_cast<std::size_t>(step)).word;

@@ -2,7 +2,7 @@
 ///
 /// Its motion is kept as it was at the last event (a start, a push, an end) and solved from there to any later time, so
 /// it does not depend on the steps between. An event changes the pull or adds speed; where the cell is does not jump.
-/// Off     it goes on by its own law, but with a damping ratio of `min_damping_ratio` at least, so that it comes to
+/// Off     it continues by its own law, with a damping ratio of at least `min_damping_ratio`, so that it comes to
 ///         rest.
 /// Still   once its energy is below that of a swing of `still`; it then counts as at rest, and stays so.
 ///

@@ -64,8 +64,7 @@ enum class CameraState : std::uint8_t {
             "the camera sends less than half of its frames; try another USB port, and nothing else at its "
             "hub"};
     case CameraState::Dark:
-        return {"camera.dark",
-                "the camera sees nothing but dark; take away what covers it, or give it light"};
+        return {"camera.dark", "the camera sees only darkness; uncover it, or light the room"};
     case CameraState::Blinded:
         return {"camera.blinded",
                 "the camera is blinded; take away the light that shines into it, or shorten its exposure in "
@@ -75,7 +74,7 @@ enum class CameraState : std::uint8_t {
         return {"camera.frozen",
                 "the camera sends the same picture again and again; pull its cable and put it back"};
     case CameraState::Broken:
-        return {"camera.broken", "the camera's frames come broken; try another USB cable and another port"};
+        return {"camera.broken", "the camera's frames are damaged; try another USB cable and another port"};
     case CameraState::Silent:
         return {"camera.silent",
                 "the camera has stopped sending; if it stays so, pull its cable and put it back"};

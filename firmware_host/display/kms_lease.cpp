@@ -152,8 +152,8 @@ Result<KmsLease> lease_output(const KmsCard& card, std::string_view connector, s
                                     O_CLOEXEC | O_NONBLOCK, &lessee);
     if (lease.file < 0) {
         return fail(ErrorKind::DeviceLost, "screen.lease_refused",
-                    "the graphics card {} does not give {} away beside {}: {}", card.path(), connector, stays,
-                    std::strerror(-lease.file));
+                    "the graphics card {} cannot drive {} separately from {}: {}", card.path(), connector,
+                    stays, std::strerror(-lease.file));
     }
     return lease;
 }

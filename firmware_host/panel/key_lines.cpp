@@ -35,7 +35,7 @@ tl::unexpected<Error> lost(const std::string& name, int error) {
         case ENXIO:
             return "it is not there; is it plugged in?";
         case EBUSY:
-            return "another program keeps it to itself; end that one, or name another keyboard";
+            return "another program has exclusive use of it; end that program, or name another keyboard";
         default:
             return std::strerror(error);
         }

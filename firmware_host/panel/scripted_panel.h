@@ -24,7 +24,7 @@ public:
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PanelEvent>& events) override;
     [[nodiscard]] std::string name() const override { return "scripted"; }
     [[nodiscard]] std::string_view state() const override {
-        return "presses come from a script; no buttons are asked";
+        return "presses come from a script; no buttons are used";
     }
 
 private:

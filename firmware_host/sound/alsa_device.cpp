@@ -122,11 +122,10 @@ public:
         if (set_up.queue <= samples_in(longest_queue)) {
             state_ = {{DeviceHealth::Well, "sound.well"}, format_sentence("its sound goes to {}", name_)};
         } else {
-            state_ = {
-                {DeviceHealth::Impaired, "sound.late"},
-                format_sentence("its sound goes to {}, which holds {:.0f} ms back: it speaks late; another "
-                                "name for the same card may be quicker, 'aplay -L' lists them",
-                                name_, queue_ms)};
+            state_ = {{DeviceHealth::Impaired, "sound.late"},
+                      format_sentence("its sound goes to {}, which queues {:.0f} ms: speech is late; another "
+                                      "name for the same card may be quicker, 'aplay -L' lists them",
+                                      name_, queue_ms)};
         }
     }
 

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
     [[nodiscard]] std::string name() const override { return "replay"; }
     [[nodiscard]] std::string_view state() const override {
-        return "poses come from a file; no tracker is asked";
+        return "poses come from a file; no tracker is used";
     }
 
 private:

@@ -41,7 +41,7 @@ public:
     [[nodiscard]] Result<void> poll(MonotonicTime now, std::vector<PoseSample>& samples) override;
     [[nodiscard]] std::string name() const override { return "simulated"; }
     [[nodiscard]] std::string_view state() const override {
-        return "a simulated visitor moves the prop; no tracker is asked";
+        return "a simulated visitor moves the prop; no tracker is used";
     }
 
 private:

@@ -87,9 +87,10 @@ enum class UsbTrackerState {
                 "the tracker sends no pose of the prop that can be used; switch it off and on, and look at "
                 "the sensor's cable if it stays so"};
     case UsbTrackerState::PosesLate:
-        return {"tracker.poses_late",
-                "the tracker runs, but its poses come late, or at another pace than it says; switch it off "
-                "and on, and try another port if it stays so"};
+        return {
+            "tracker.poses_late",
+            "the tracker runs, but its poses come late, or at another rate than it reports; switch it off "
+            "and on, and try another port if it stays so"};
     case UsbTrackerState::MetalNear:
         return {"tracker.metal_near",
                 "the tracker's field is distorted; take metal away from its source and sensors"};

@@ -231,7 +231,7 @@ TEST_F(ReportPage, BadCsvFilesAreNamedWithLineAndColumn) {
     expect_error("ladder", "csv.column", file + "1: the column 'longest_dark_s' is missing");
     for (const std::string bad : {"", "x", "nan", "inf", "1e999", "1,5", "0x1", " 1", "1 "}) {
         ladder(columns + "ladder,1,0,0,0,0,0,0\n\"a\nb\",1,0,0,\"" + bad + "\",0,0,0\n");
-        expect_error("ladder", "csv.number", file + "3, column 'dark': '" + bad + "' is no number");
+        expect_error("ladder", "csv.number", file + "3, column 'dark': '" + bad + "' is not a number");
     }
     ladder(columns + "ladder,1,0,0,0,0,0,0\nsystemd,1\n");
     expect_error("ladder", "csv.fields", file + "3: there are 2 fields, the first line names 8 columns");

@@ -18,7 +18,7 @@ exposure_ms = 8.0
 """
 WELL = "the camera is running"
 FAULTS = (  # what the mock does, what is said
-    ("dark", "sees nothing but dark"), ("blind", "is blinded"), ("freeze", "the same picture again and again"),
+    ("dark", "sees only darkness"), ("blind", "is blinded"), ("freeze", "the same picture again and again"),
     (f"slow {RATE_HZ / 3:g}", "less than half of its frames"), ("stall", "has stopped sending"),
     ("short-frames", "has stopped sending"), ("garbage-headers", "has stopped sending"))
 TOLD_S = 10.0

@@ -20,7 +20,7 @@ STORMS = {
     "absurd_endpoints": ("absurd-endpoints", None),
     "absurd_lengths": ("absurd-lengths", None),
     "wrong_configuration": ("wrong-configuration", None),
-    "late_poses": ("rate 2", "its poses come late, or at another pace"),
+    "late_poses": ("rate 2", "its poses come late, or at another rate"),
 }
 DESCRIPTORS = ("no-endpoints", "absurd-endpoints", "absurd-lengths", "wrong-configuration")  # read when it is plugged in
 CHATTER_S = 30.0  # by then the chatter must be noticed

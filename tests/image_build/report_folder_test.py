@@ -191,7 +191,7 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
             with self.subTest(kind):
                 self.stick(kind, fat32())
                 self.assert_left_alone(*self.run_in(f"touch {REQUEST}")[:2])
-                self.assertIn("FAT32 and exFAT alone", self.told()[1])
+                self.assertIn("only be written to FAT32 or exFAT", self.told()[1])
 
     def test_write_protected(self):
         self.write("sys/class/block/sda1/ro", b"1\n")

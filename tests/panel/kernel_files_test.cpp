@@ -124,7 +124,7 @@ TEST(KeyFiles, AKeyboardThatAnotherProgramKeepsIsSaidInOneSentence) {
     const auto lines = open_key_lines({"/dev/input/event1", {105, 106}});
     ASSERT_FALSE(lines);
     EXPECT_EQ(lines.error().kind, ErrorKind::DeviceLost);
-    EXPECT_NE(lines.error().message.find("/dev/input/event1: another program keeps it to itself"),
+    EXPECT_NE(lines.error().message.find("/dev/input/event1: another program has exclusive use of it"),
               std::string::npos)
         << lines.error().message;
     keyboard.held_by_another = false;

@@ -169,7 +169,7 @@ TEST_F(BenchReport, ABadNumberIsOneLineAndLeavesThePageAsItIs) {
     write_ladder("much");
     EXPECT_EQ(report(), 1);
     const std::string said = text("err.txt");
-    EXPECT_NE(said.find("from/ladder/ladder_policies.csv, line 2, column 'dark': 'much' is no number"),
+    EXPECT_NE(said.find("from/ladder/ladder_policies.csv, line 2, column 'dark': 'much' is not a number"),
               std::string::npos)
         << said;
     EXPECT_EQ(said.find('\n'), said.size() - 1);

@@ -114,12 +114,12 @@ TEST_F(RunCommand, AShortRunLeavesItsLastPictureAndAFolderThatIsNotThereIsSaid) 
 
 TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
     const nlohmann::json replayed = run("--seconds 1");
-    EXPECT_EQ(replayed.at("tracker"), "poses come from a file; no tracker is asked");
+    EXPECT_EQ(replayed.at("tracker"), "poses come from a file; no tracker is used");
     EXPECT_EQ(replayed.at("panel"), ""); // there is no panel
     write_settings("simulated", "[[panel.script]]\nat_s = 1.0\nbutton = 2\n");
     const nlohmann::json simulated = run("--seconds 2 --soak 1");
-    EXPECT_EQ(simulated.at("tracker"), "a simulated visitor moves the prop; no tracker is asked");
-    EXPECT_EQ(simulated.at("panel"), "presses come from a script; no buttons are asked");
+    EXPECT_EQ(simulated.at("tracker"), "a simulated visitor moves the prop; no tracker is used");
+    EXPECT_EQ(simulated.at("panel"), "presses come from a script; no buttons are used");
 }
 
 TEST_F(RunCommand, ListsThePacksThatItCannotShow) {

@@ -106,7 +106,7 @@ TEST_F(RunService, IsReadyWhenAPictureIsOnSaysWhatItShowsFeedsAndStops) {
     start();
     ASSERT_TRUE(hears("READY=1")) << errors();
     EXPECT_TRUE(hears("WATCHDOG=1"));
-    EXPECT_TRUE(hears("STATUS=poses come from a file; no tracker is asked; shows Rings (en, level0)"));
+    EXPECT_TRUE(hears("STATUS=poses come from a file; no tracker is used; shows Rings (en, level0)"));
     EXPECT_TRUE(hears("WATCHDOG=1")); // at rest too
     EXPECT_TRUE(hears("WATCHDOG=1"));
     const auto told = Clock::now();
@@ -121,7 +121,7 @@ TEST_F(RunService, ALostTrackerAndALostPanelAreSaidAndFedThrough) {
     start("[panel]\nkind = \"gpio\"\nchip = \"no-such-chip\"\nlines = [\"1\"]\n");
     ASSERT_TRUE(hears("READY=1")) << errors();
     ASSERT_TRUE(
-        hears("STATUS=poses come from a file; no tracker is asked; the buttons' GPIO chip no-such-chip"))
+        hears("STATUS=poses come from a file; no tracker is used; the buttons' GPIO chip no-such-chip"))
         << errors();
     EXPECT_TRUE(fed_within(seconds(10)));
     EXPECT_NE(errors().find("frustumscreen: panel: the buttons' GPIO chip no-such-chip"), std::string::npos);

@@ -276,11 +276,11 @@ TEST_F(SitePicture, RefusesInOneLine) {
         EXPECT_NE(line.find(words), std::string::npos) << line;
         EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
     };
-    told(render("--site 0.6,0,4"), "'0.6,0,4' is no part of a site");
-    told(render("--site 0.1,0"), "is no part of a site");
+    told(render("--site 0.6,0,4"), "'0.6,0,4' is not a part of a site");
+    told(render("--site 0.1,0"), "is not a part of a site");
     told(render("--site 0.1,0,1001"), "1 to 1000");
     ASSERT_EQ(bake(""), 0) << text("err.txt");
-    told(render("--site 0.1,0,4"), "--site: the pack is no site");
+    told(render("--site 0.1,0,4"), "--site: the pack is not a site");
 }
 
 } // namespace

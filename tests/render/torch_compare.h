@@ -30,7 +30,7 @@ struct Tolerance {
     double margin_m = 1e-4;
 };
 inline constexpr Tolerance of_mesh{};
-/// Of what the GPU draws of a torch's picture the four depths around a place count.
+/// The four depths around a place count of a torch's picture that the GPU draws.
 inline constexpr Tolerance of_cut_outs{.torch_px = 1.42};
 /// A relief of so few texels lies up to one texel off its outline.
 inline constexpr Tolerance of_relief{.eye_px = 1.5, .torch_px = 4.0, .place_m = 1e-3, .margin_m = 6e-4};

@@ -151,7 +151,7 @@ TEST_F(ReportProgram, AFileThatAsksForMoreThanThereIsIsTold) {
     EXPECT_NE(lines[0].reason.find("4096"), std::string::npos);
     std::filesystem::remove(folder / name);
     std::filesystem::create_directory(folder / name);
-    EXPECT_NE(told().at(0).reason.find("no ordinary file"), std::string::npos);
+    EXPECT_NE(told().at(0).reason.find("not a regular file"), std::string::npos);
     std::filesystem::remove(folder / name);
     EXPECT_TRUE(told().empty());
 }

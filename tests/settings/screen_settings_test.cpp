@@ -101,7 +101,7 @@ TEST(ScreenCorners, MayBeAMillimetreOffAndNotTen) {
             at[which] += 0.001 * way;
             EXPECT_EQ(refusal(screen(corners(at))), "") << which;
             at[which] += 0.009 * way;
-            expect_refused(screen(corners(at)), {":3: screen.corners_m is no rectangle: it is ",
+            expect_refused(screen(corners(at)), {":3: screen.corners_m is not a rectangle: it is ",
                                                  "mm off; allowed are at "
                                                  "most 2.4 mm",
                                                  "[settings.screen_no_rectangle]"});

@@ -89,7 +89,7 @@ protected:
         max_store_bytes_ = std::max(max_store_bytes_, renderer_.store().bytes());
         ASSERT_FALSE(cells().shows() && cells().parts().empty());
     }
-    /// Its two levels, finest first, and its stand-in.
+    /// Its two levels, finest first, and its proxy.
     [[nodiscard]] std::span<const residency::LevelUse> uses_of(std::size_t region) {
         return std::span(cells().uses()).subspan(3 * region, 3);
     }
@@ -186,8 +186,8 @@ TEST_F(SitePages, ComeForThePlaceAndLeaveForTheNextWithinTheBudget) {
     EXPECT_EQ(cache_->bytes(), coarse_bytes_ + bytes_of_pages_there());
 }
 
-/// Bytes in the store, counted by hand: the site's two levels share a texture, and a stand-in's texels lie no closer on the prop than the site's.
-TEST_F(SitePages, BringOnlyStandInsWithTheArtifact) {
+/// Bytes in the store, counted by hand: the site's two levels share a texture, and a proxy's texels lie no closer on the prop than the site's.
+TEST_F(SitePages, BringOnlyProxiesWithTheArtifact) {
     constexpr std::uint64_t whole_texels = 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4;
     constexpr std::uint64_t stand_in_texels = 8 * 8 + 4 * 4; // 64 / 6 texels along a side, or fewer
     const std::uint64_t before = renderer_.store().bytes();
@@ -210,7 +210,7 @@ TEST_F(SitePages, BringOnlyStandInsWithTheArtifact) {
     }
 }
 
-/// In the miniature the stand-in is all that is needed; a little larger, its level comes with the whole texture.
+/// In the miniature the proxy is all that is needed; a little larger, its level comes with the whole texture.
 TEST_F(SitePages, ComeForTheTextureAloneWhereTheSurfaceIsGoodEnough) {
     start(no_limit, true);
     scene::FrameCost cost; // without times the best level is drawn

@@ -241,7 +241,7 @@ class Text(Status):
 
     def test_devices_that_the_settings_do_not_ask_for_are_not_missing(self):
         none = {name: device(None, "device.none") for name in devices()}
-        self.write("status.json", exhibit(devices=none, tracker="a simulated visitor moves the prop; no tracker is asked"))
+        self.write("status.json", exhibit(devices=none, tracker="a simulated visitor moves the prop; no tracker is used"))
         self.assertTrue(self.text(0).startswith("The exhibit runs and is well.\n"))
 
     def test_a_device_that_is_there_and_impaired_is_named(self):

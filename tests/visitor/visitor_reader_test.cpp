@@ -130,7 +130,7 @@ TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {
     camera::CameraFrame frame = frame_at(milliseconds(9000), false, 1);
     frame.width = 480;
     tracker.use(frame);
-    EXPECT_NE(tracker.trouble().find("another shape"), std::string_view::npos);
+    EXPECT_NE(tracker.trouble().find("another aspect ratio"), std::string_view::npos);
 }
 
 /// The whole chain: a person comes, walks in and stands, under a changing picture.

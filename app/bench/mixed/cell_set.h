@@ -51,7 +51,7 @@ public:
     [[nodiscard]] const geometry::PropShape& prop() const { return plan_.prop; }
     [[nodiscard]] const settings::Settings& settings() const { return settings_; }
     [[nodiscard]] scene::PlanView view(const BenchPose& pose) const;
-    /// Indices of all cells at their finest, twice: room for a plan.
+    /// Indices of all cells at their finest, twice: space for a plan.
     [[nodiscard]] std::size_t max_indices() const { return max_indices_; }
 
     /// The exhibit's own cells, with a behaviour that runs for ever and moves nothing. `deadline_ms`: as the exhibit's.

@@ -9,7 +9,7 @@
 ///
 /// Units    pixels; metres; S as a share of the picture, because the paper names no unit and the weights do not exceed 1;
 ///          polygons of one frame: those of a second, over the frames of a second.
-/// Threads  pure; any. `choose_polygons` allocates nothing into lists that have room.
+/// Threads  pure; any. `choose_polygons` allocates nothing into lists with enough capacity.
 /// Errors   none.
 /// Source   Kim 2008, "Switching between representations" and "Building a virtual environment with mixed representation
 ///          objects".

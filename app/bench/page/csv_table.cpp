@@ -79,10 +79,11 @@ Result<double> CsvTable::number(std::size_t row, std::string_view column) const 
     const char* const end = field.data() + field.size();
     const auto [stop, failed] = std::from_chars(field.data(), end, value);
     if (failed != std::errc() || stop != end || !std::isfinite(value)) {
-        return bad_input("csv.number",
-                         "{}, line {}, column '{}': '{}' is no number; a finite decimal number is allowed, "
-                         "measure again",
-                         file_, rows_[row].line, column, printable(field));
+        return bad_input(
+            "csv.number",
+            "{}, line {}, column '{}': '{}' is not a number; a finite decimal number is allowed, "
+            "measure again",
+            file_, rows_[row].line, column, printable(field));
     }
     return value;
 }

@@ -54,9 +54,9 @@ BenchCommand ldi_command(CommandLine& app) {
     command.add_option("--config", arguments->config, "settings of the scene alone").capture_default_str();
     command
         .add_option("--triangles", arguments->triangles,
-                    "of one scene (default: 126790, 264247 and 630799, as in the paper)")
+                    "triangles of one scene (default: 126790, 264247 and 630799, as in the report)")
         .within(std::size_t{42'000}, std::size_t{5'000'000});
-    command.add_option("--pixels", arguments->options.pixels, "along each side of a window")
+    command.add_option("--pixels", arguments->options.pixels, "pixels along each side of a window")
         .within(64, 1024)
         .capture_default_str();
     command.add_option("--frames", arguments->options.frames, "length of the eye's path")
@@ -64,16 +64,18 @@ BenchCommand ldi_command(CommandLine& app) {
         .capture_default_str();
     command
         .add_option("--passes", arguments->options.passes,
-                    "over the path, of which each frame's least time counts")
+                    "passes over the path; the least time of each frame counts")
         .within(1, 100)
         .capture_default_str();
-    command.add_option("--errors", arguments->options.errors, "frames that are held against rays")
+    command.add_option("--errors", arguments->options.errors, "number of frames compared with a ray cast")
         .within(1, 100000)
         .capture_default_str();
-    command.add_option("--seed", arguments->options.seed, "of the scene and the path").capture_default_str();
-    command.add_flag("--long", arguments->is_long,
-                     "a path of 200 frames, 60 of them held against rays, 8 eyes in each patch, windows of "
-                     "512 pixels and reliefs with coarser texels");
+    command.add_option("--seed", arguments->options.seed, "seed of the scene and the path")
+        .capture_default_str();
+    command.add_flag(
+        "--long", arguments->is_long,
+        "a path of 200 frames, 60 of them compared with a ray cast, 8 eyes in each patch, windows of "
+        "512 pixels and reliefs with coarser texels");
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -48,7 +48,7 @@ BenchCommand mixed_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
         "mixed",
         "measures how the cells of an artifact are drawn, each as polygons or relief, at several budgets "
-        "of time, against the paper's way to choose");
+        "of time, against the paper's choice");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables and plots").required();
     add_board_options(command, arguments->artifact);
@@ -57,7 +57,8 @@ BenchCommand mixed_command(CommandLine& app) {
         .within(2, 100000)
         .capture_default_str();
     command
-        .add_option("--steps", arguments->options.steps, "of each technique's own budget, from least to most")
+        .add_option("--steps", arguments->options.steps,
+                    "number of settings of each technique's own budget, from least to most")
         .within(1, 100)
         .capture_default_str();
     command.add_option("--seed", arguments->options.seed, "seed of the walk").capture_default_str();

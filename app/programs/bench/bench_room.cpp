@@ -153,15 +153,17 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
 BenchCommand room_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
         "room", "measures the room behind the screen, of many objects, against fixed polygons, fixed "
-                "relief, meshoptimizer's levels and the paper's way");
+                "relief, meshoptimizer's levels and the paper's choice");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the packs, tables and plots").required();
     command.add_option("--packs", arguments->packs, "folder of an earlier run whose packs are used again");
     command.add_option("--config", arguments->config, "settings of the set-up").capture_default_str();
-    command.add_option("--objects", arguments->objects, "in the room, floor and walls included")
+    command
+        .add_option("--objects", arguments->objects,
+                    "number of objects in the room, floor and walls included")
         .within(bench::min_room_objects, static_cast<int>(room::max_objects))
         .capture_default_str();
-    command.add_option("--triangles", arguments->triangles, "of each artifact's source")
+    command.add_option("--triangles", arguments->triangles, "triangles of each artifact's source")
         .within(1000, 10'000'000)
         .capture_default_str();
     command.add_option("--frames", arguments->options.frames, "length of each walk, at 10 frames a second")
@@ -169,19 +171,21 @@ BenchCommand room_command(CommandLine& app) {
         .capture_default_str();
     command
         .add_option("--passes", arguments->options.passes,
-                    "over the walks, of which each frame's least time counts")
+                    "passes over the walks; the least time of each frame counts")
         .within(1, 100)
         .capture_default_str();
-    command.add_option("--width", arguments->width, "of the picture, pixels")
+    command.add_option("--width", arguments->width, "width of the picture, pixels")
         .within(64, 8192)
         .capture_default_str();
-    command.add_option("--height", arguments->height, "of the picture, pixels")
+    command.add_option("--height", arguments->height, "height of the picture, pixels")
         .within(64, 8192)
         .capture_default_str();
-    command.add_option("--size", arguments->size, "of the packs, as frustumscreen-bake has it")
+    command
+        .add_option("--size", arguments->size,
+                    "texels along the longest edge of a face, as frustumscreen-bake --size")
         .within(16, 4096)
         .capture_default_str();
-    command.add_option("--seed", arguments->seed, "of the room").capture_default_str();
+    command.add_option("--seed", arguments->seed, "seed of the room").capture_default_str();
     command.add_flag("--long", arguments->is_long, "walks of ten minutes, 20 million source triangles");
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }

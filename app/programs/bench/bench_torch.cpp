@@ -76,7 +76,7 @@ Result<void> run(Arguments arguments, BenchProgress& progress) {
 BenchCommand torch_command(CommandLine& app) {
     CommandLine command = app.add_subcommand(
         "torch", "measures cost and error of a torch's light on polygons, relief and cells, against the "
-                 "paper's way to split triangles");
+                 "paper's splitting of triangles");
     const auto arguments = std::make_shared<Arguments>();
     command.add_option("--out", arguments->out, "folder for the tables, plots and pictures").required();
     add_board_options(command, arguments->artifact);
@@ -86,15 +86,15 @@ BenchCommand torch_command(CommandLine& app) {
         .capture_default_str();
     command
         .add_option("--passes", arguments->options.passes,
-                    "over the sweep, of which each frame's least time counts")
+                    "passes over the sweep; the least time of each frame counts")
         .within(1, 100)
         .capture_default_str();
-    command.add_option("--errors", arguments->options.errors, "frames that are held against the truth")
+    command.add_option("--errors", arguments->options.errors, "number of frames compared with the truth")
         .within(1, 100000)
         .capture_default_str();
-    command.add_option("--seed", arguments->options.seed, "of the sweep").capture_default_str();
+    command.add_option("--seed", arguments->options.seed, "seed of the sweep").capture_default_str();
     command.add_flag("--long", arguments->is_long,
-                     "a sweep of 300 frames, 30 of them held against the truth");
+                     "a sweep of 300 frames, 30 of them compared with the truth");
     return {command, [arguments](BenchProgress& progress) { return run(*arguments, progress); }};
 }
 

@@ -50,7 +50,7 @@ Result<ProjectedLanguage> language_of(const residency::TextSource& source,
     const Result<residency::TextPictures> captions =
         residency::draw_texts(source, texts, residency::TextPart::Caption, language, usual_style(), never);
     TRY(const residency::TextPictures narration_sequencer,
-        captions ? residency::draw_texts(source, texts, residency::TextPart::NarrationSequencer, language,
+        captions ? residency::draw_texts(source, texts, residency::TextPart::Narration, language,
                                          usual_style(), never)
                  : captions);
     made.title = projected(made.caption.title, captions->front());

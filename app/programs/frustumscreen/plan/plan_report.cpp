@@ -86,7 +86,8 @@ std::string needs_text(const PlanReport& report) {
                    use.captions == 0   ? "none"
                    : use.captions == 1 ? "one text"
                                        : fmt::format("{} texts", use.captions));
-    fmt::format_to(out, "  room for samples a pixel, wherever the prop stands: {}\n", use.samples);
+    fmt::format_to(out, "  samples a pixel that the render target holds, wherever the prop stands: {}\n",
+                   use.samples);
     fmt::format_to(out, "  shader programs: {}\n", joined(names_of(use.shaders)));
     fmt::format_to(out, "  tracker: {}{}\n", settings::name_of(report.devices.tracker),
                    report.devices.head ? ", the viewer's head is followed" : "");

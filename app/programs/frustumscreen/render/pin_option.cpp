@@ -49,7 +49,7 @@ ArgumentCheck is_pin() {
     const auto check = [](const std::string& text) {
         return read_pin(text)
                    ? std::string()
-                   : fmt::format("'{}' is no place on the table; allowed is X,Y or X,Y,YAW_DEG, in metres "
+                   : fmt::format("'{}' is not a place on the table; allowed is X,Y or X,Y,YAW_DEG, in metres "
                                  "from the table's middle, such as 0.2,-0.1 or 0.2,-0.1,45",
                                  text);
     };

@@ -36,13 +36,14 @@ std::optional<show::OfflineSite> read_site(const std::string& text) {
 
 ArgumentCheck is_site() {
     const auto check = [](const std::string& text) {
-        return read_site(text) ? std::string()
-                               : fmt::format("'{}' is no part of a site; allowed is X,Y,ZOOM: a place, -0.5 "
-                                             "to 0.5, in lengths of the site's "
-                                             "longer side from its middle, and how many times larger than "
-                                             "the miniature, 1 to {:g}, such as "
-                                             "0.1,-0.2,4",
-                                             text, world::max_zoom);
+        return read_site(text)
+                   ? std::string()
+                   : fmt::format("'{}' is not a part of a site; allowed is X,Y,ZOOM: a place, -0.5 "
+                                 "to 0.5, in lengths of the site's "
+                                 "longer side from its middle, and how many times larger than "
+                                 "the miniature, 1 to {:g}, such as "
+                                 "0.1,-0.2,4",
+                                 text, world::max_zoom);
     };
     return {check, ""};
 }
