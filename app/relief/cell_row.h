@@ -2,10 +2,11 @@
 /// nearness.
 ///
 /// Frames   pixels of the projector's picture; positions in cells of the block.
-/// Method   micropolygons (Cook 1987): a cell is smaller than a few pixels, so its two triangles are tested
-///          at the pixels around it, eight cells at once, one per lane. Position and nearness are linear over
-///          a triangle: perspective is negligible within a cell.
-/// Threads  pure; any. Inlined into one function for each instruction set; only rasterize_blocks.cpp uses it.
+/// Method   micropolygons (Cook 1987): most cells are smaller than a few pixels, so a cell's two triangles are tested
+///          at the pixels around it, eight cells at once, one per lane. Nearness is linear over a triangle of the
+///          picture; so is the position in a cell, unless its corners' distances from the eye differ by more
+///          than `max_linear_ratio`.
+/// Threads  pure; any. Inlined into one function for each instruction set; see item_rows.h.
 #pragma once
 
 #include "app/relief/block_items.h"
@@ -70,13 +71,24 @@ struct Weights {
                 .from_d_to_c = from_d_to_c + step.from_d_to_c,
                 .from_d_to_b = from_d_to_b + step.from_d_to_b};
     }
+    FRUSTUMSCREEN_INLINE Weights times(Floats factor) const {
+        return {.to_b = to_b * factor,
+                .to_c = to_c * factor,
+                .from_d_to_c = from_d_to_c * factor,
+                .from_d_to_b = from_d_to_b * factor};
+    }
 };
 
 struct CellRow {
     Ints there;                     ///< cells that face the eye
     Ints first_faces, second_faces; ///< the triangle at a, and the one at d, faces the eye
+    bool recedes;                   ///< some cell by more than `max_linear_ratio`
     Floats left, right, top, bottom;
 };
+
+/// The distance of a cell's farthest corner from the eye over that of its nearest, up to which perspective moves positions in the cell
+/// by less than 2 % of it.
+constexpr float max_linear_ratio = 1.06F;
 
 /// For the cells in `cells`. `outward` is 1 or -1: the grid's orientation in the picture.
 FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float outward) {
@@ -86,9 +98,13 @@ FRUSTUMSCREEN_INLINE CellRow cell_row(const CellCorners& at, Ints cells, float o
     constexpr float min_area = 1e-6F; // pixels
     const Ints first_faces = outward * first_area > min_area;
     const Ints second_faces = outward * second_area > min_area;
-    return {.there = cells & (first_faces | second_faces),
+    const Ints there = cells & (first_faces | second_faces);
+    const Floats farthest = least(least(a.nearness, b.nearness), least(c.nearness, d.nearness));
+    const Floats nearest = most(most(a.nearness, b.nearness), most(c.nearness, d.nearness));
+    return {.there = there,
             .first_faces = first_faces,
             .second_faces = second_faces,
+            .recedes = any(there & (nearest > max_linear_ratio * farthest)),
             .left = least(least(a.x, b.x), least(c.x, d.x)),
             .right = most(most(a.x, b.x), most(c.x, d.x)),
             .top = least(least(a.y, b.y), least(c.y, d.y)),
@@ -113,6 +129,8 @@ FRUSTUMSCREEN_INLINE CellSteps cell_steps(const CellCorners& at) {
 /// Cells are drawn wider by this, so that blocks with different residual steps leave no gap.
 constexpr float seam = 0.04F;  // cells
 constexpr float grown = 0.02F; // pixels at most
+/// A small overlap of a cell's two triangles, so that rounding leaves no gap between them.
+constexpr float diagonal = 1.001F;
 
 /// Pixels [left, right) x [top, bottom) whose sample each cell may cover.
 struct CellPixels {
@@ -147,23 +165,59 @@ struct Fragment {
 FRUSTUMSCREEN_INLINE Fragment fragment_at(const CellRow& row, const CellCorners& at, const Weights& weights) {
     const auto& [to_b, to_c, from_d_to_c, from_d_to_b] = weights;
     const Ints first = row.first_faces & (to_b >= -seam) & (to_c >= -seam) & (to_b + to_c <= 1.0F);
-    constexpr float diagonal = 1.001F; // a small overlap, so that rounding leaves no gap between the two
-                                       // triangles
     const Ints second = row.second_faces & (from_d_to_c >= -seam) & (from_d_to_b >= -seam) &
                         (from_d_to_c + from_d_to_b <= diagonal);
     const Floats a = at.a.nearness, b = at.b.nearness, c = at.c.nearness, d = at.d.nearness;
+    const Floats nearness =
+        first ? a + to_b * (b - a) + to_c * (c - a) : d + from_d_to_c * (c - d) + from_d_to_b * (b - d);
+    Floats towards_b = first ? to_b : from_d_to_b;
+    Floats towards_c = first ? to_c : from_d_to_c;
+    if (row.recedes) { // each corner weighs by its nearness
+        towards_b *= b / nearness;
+        towards_c *= c / nearness;
+    }
     return {.met = first | second,
-            .u = first ? to_b : 1.0F - from_d_to_c,
-            .v = first ? to_c : 1.0F - from_d_to_b,
-            .nearness = first ? a + to_b * (b - a) + to_c * (c - a)
-                              : d + from_d_to_c * (c - d) + from_d_to_b * (b - d)};
+            .u = first ? towards_b : 1.0F - towards_c,
+            .v = first ? towards_c : 1.0F - towards_b,
+            .nearness = nearness};
 }
 
-/// Calls visit(weights, lanes, column, row) for the `sample` of the pixels (left + column, top + row) of all
+/// Columns, counted from where the weights are; real, so that none lie between `first` and a smaller `last`.
+struct Columns {
+    Floats first, last;
+
+    /// Those of them at which a linear function that changes by `slope` a column is not negative.
+    FRUSTUMSCREEN_INLINE Columns where(Floats function, Floats slope) const {
+        const Floats zero = -function / slope;
+        return {slope > 0.0F ? most(first, zero) : first, slope < 0.0F ? least(last, zero) : last};
+    }
+};
+
+/// Those of a row of pixels that a cell's triangles cover (fragment_at), among `count`. `weights`: at the first one.
+FRUSTUMSCREEN_INLINE Columns covered_columns(const CellRow& row, const Weights& weights, const Weights& step,
+                                             Floats count) {
+    const Columns every{Floats{}, count - 1.0F};
+    const Columns first = every.where(weights.to_b + seam, step.to_b)
+                              .where(weights.to_c + seam, step.to_c)
+                              .where(1.0F - weights.to_b - weights.to_c, -step.to_b - step.to_c);
+    const Columns second = every.where(weights.from_d_to_c + seam, step.from_d_to_c)
+                               .where(weights.from_d_to_b + seam, step.from_d_to_b)
+                               .where(diagonal - weights.from_d_to_c - weights.from_d_to_b,
+                                      -step.from_d_to_c - step.from_d_to_b);
+    const Ints in_first = row.first_faces & (first.first <= first.last);
+    const Ints in_second = row.second_faces & (second.first <= second.last);
+    return {least(in_first ? first.first : count, in_second ? second.first : count),
+            most(in_first ? first.last : all(-1.0F), in_second ? second.last : all(-1.0F))};
+}
+
+/// Calls visit(weights, lanes, columns, row) for the `sample` of the pixels (left + column, top + row) of all
 /// cells. The number of steps is found first, because a loop that asks in every step whether any lane
 /// continues stalls on the answer.
+///
+/// An eye just before the plane of a face sees each cell drawn out across it: a sliver along the diagonal of its box. So each
+/// row of a wide box begins and ends where the cell does.
 template <typename Visit>
-FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCorners& at,
+FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellRow& row, const CellCorners& at,
                                          const CellSteps& steps, const glm::vec2& sample,
                                          const Visit& visit) {
     const auto& [along_x, along_y] = steps;
@@ -179,11 +233,23 @@ FRUSTUMSCREEN_INLINE void for_each_pixel(const CellPixels& pixels, const CellCor
     const Ints rows = pixels.there & (pixels.bottom - pixels.top);
     const int max_columns = max_of(columns);
     const int max_rows = max_of(rows);
+    constexpr int wide = 8; // below this, finding a row's ends costs more than it saves
     for (int y = 0; y < max_rows; ++y) {
         const Ints in_y = y < rows;
         Weights weights = begin;
-        for (int x = 0; x < max_columns; ++x) {
-            visit(weights, in_y & (x < columns), x, y);
+        Ints first{};
+        Ints count = columns;
+        int max_count = max_columns;
+        if (max_columns > wide) {
+            const Columns covered =
+                covered_columns(row, begin, along_x, __builtin_convertvector(columns, Floats));
+            first = __builtin_convertvector(covered.first, Ints);
+            count = in_y & (__builtin_convertvector(covered.last, Ints) + 1 - first);
+            max_count = max_of(count);
+            weights = begin.plus(along_x.times(__builtin_convertvector(first, Floats)));
+        }
+        for (int x = 0; x < max_count; ++x) {
+            visit(weights, in_y & (x < count), first + x, y);
             weights = weights.plus(along_x);
         }
         begin = begin.plus(along_y);

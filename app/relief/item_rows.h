@@ -1,7 +1,7 @@
 /// The items of a list (block_items.h) one by one, with their rows of cells: what both rasterizers walk over.
 ///
-/// Threads  pure; any. Inlined into one function for each instruction set; rasterize_blocks.cpp and
-///          rasterize_nearness.cpp alone use it.
+/// Threads  pure; any. Inlined into one function for each instruction set of rasterize_blocks.cpp and
+///          rasterize_nearness.cpp; a test counts steps with it.
 #pragma once
 
 #include "app/relief/cell_row.h"

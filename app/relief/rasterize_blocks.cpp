@@ -125,7 +125,7 @@ FRUSTUMSCREEN_INLINE void rasterize_cells(RasterSamples& samples, Fragments& fra
         ready_to_step = true;
         const Ints first =
             ((pixels.top - all_pixels.y) * count + k) * all_pixels.width + (pixels.left - all_pixels.x);
-        const auto visit = [&](const Weights& weights, Ints in, int x, int y) FRUSTUMSCREEN_INLINED {
+        const auto visit = [&](const Weights& weights, Ints in, Ints x, int y) FRUSTUMSCREEN_INLINED {
             if (!ready.item.inside) {
                 in &= in_face(ready, {__builtin_convertvector(pixels.left + x, Floats) + sample.x,
                                       __builtin_convertvector(pixels.top + y, Floats) + sample.y});
@@ -139,7 +139,7 @@ FRUSTUMSCREEN_INLINE void rasterize_cells(RasterSamples& samples, Fragments& fra
                 fragments.take(samples, ready);
             }
         };
-        for_each_pixel(pixels, corners, steps, sample, visit);
+        for_each_pixel(pixels, at, corners, steps, sample, visit);
     }
 }
 

@@ -82,7 +82,6 @@ struct Hits {
 /// As fragment_at (cell_row.h).
 FRUSTUMSCREEN_INLINE Hits hits_of(const Weights& weights) {
     const auto& [to_b, to_c, from_d_to_c, from_d_to_b] = weights;
-    constexpr float diagonal = 1.001F;
     return {(to_b >= -seam) & (to_c >= -seam) & (to_b + to_c <= 1.0F),
             (from_d_to_c >= -seam) & (from_d_to_b >= -seam) & (from_d_to_c + from_d_to_b <= diagonal)};
 }
