@@ -291,7 +291,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
                                .patches = patches_for(window.number, table_from_window, eyes_m),
                                .torches = held.light.behind(held.view, table_from_window)};
     }
-    if (count < windows_.count) { // the plans have space for so many
+    if (count < windows_.count) { // the plans have room for so many
         count += place_preview(presentation, eyes_m, cache, placed_.at(count)) ? 1 : 0;
     }
     expect_parts(presentation, cache);
