@@ -168,13 +168,15 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
     const geometry::Pinhole& pinhole = view.projector;
     const glm::dmat3 picture_from_ray(pinhole.fx, 0.0, 0.0, 0.0, pinhole.fy, 0.0, pinhole.cx, pinhole.cy,
                                       1.0);
+    const glm::dvec4 casting(glm::dvec3(light.casting) * glm::inverse(picture_from_ray), light.casting.w);
     for (const scene::Draw& draw : view.draws) {
         const scene::PlacedLevel& level = view.casters[draw.part].level;
         if (level.triangles) {
             shadow_map_.draw({.picture_from_model = picture_from_ray * glm::dmat4x3(light.torch_from_prop *
                                                                                     level.prop_from_box()),
                               .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x),
-                              .from_within = is_within(light, level)},
+                              .from_within = is_within(light, level),
+                              .casting = casting},
                              level.triangles->positions,
                              std::span(view.indices).subspan(draw.range.first, draw.range.count));
         }

@@ -268,16 +268,18 @@ inline constexpr std::string_view torch_on_samples = R"(
 uniform highp sampler2D depths;
 uniform mat4 torch_from_projector; // its 3 x 3: from a ray to the place less the eye, times the depth left (scene::TorchFace)
 uniform vec3 eye;                  // torch's frame
-uniform vec4 depth_from_nearness;  // w: the depth infinitely far away
+uniform vec4 depth_from_nearness;  // times (ray.xy, 0, 1): the depth infinitely far away
 uniform ivec4 raster;              // samples along a pixel's sides, the pixel at the corner
-vec3 from_eye(vec2 fragment) {
-    return mat3(torch_from_projector) * vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+// In w the depth infinitely far away.
+vec4 from_eye(vec2 fragment) {
+    vec3 ray = vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+    return vec4(mat3(torch_from_projector) * ray, dot(depth_from_nearness.xy, ray.xy) + depth_from_nearness.w);
 }
 void main() {
-    vec3 middle = from_eye(gl_FragCoord.xy);
+    vec4 middle = from_eye(gl_FragCoord.xy);
     // A sample's own ray: on a steep surface the pixel's would lie before the sample's place, in its shadow.
-    vec3 right = (from_eye(gl_FragCoord.xy + vec2(0.5, 0.0)) - middle) * 2.0 / float(raster.x);
-    vec3 down = (from_eye(gl_FragCoord.xy + vec2(0.0, 0.5)) - middle) * 2.0 / float(raster.y);
+    vec4 right = (from_eye(gl_FragCoord.xy + vec2(0.5, 0.0)) - middle) * 2.0 / float(raster.x);
+    vec4 down = (from_eye(gl_FragCoord.xy + vec2(0.0, 0.5)) - middle) * 2.0 / float(raster.y);
     ivec2 first = (ivec2(gl_FragCoord.xy) - raster.zw) * raster.xy;
     vec2 to_first = 0.5 - 0.5 * vec2(raster.xy);
     vec3 sum = vec3(0.0);
@@ -286,9 +288,10 @@ void main() {
     for (int y = 0; y < raster.y; ++y) {
         for (int x = 0; x < raster.x; ++x) {
             float depth = texelFetch(depths, first + ivec2(x, y), 0).r;
-            depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
-            vec3 p = eye + (middle + right * (to_first.x + float(x)) + down * (to_first.y + float(y))) / depth_left;
-            place_error = error_of(length(middle), depth_left);
+            vec4 to_place = middle + right * (to_first.x + float(x)) + down * (to_first.y + float(y));
+            depth_left = 2.0 * depth - 1.0 - to_place.w;
+            vec3 p = eye + to_place.xyz / depth_left;
+            place_error = error_of(length(middle.xyz), depth_left);
             if (depth < 1.0 && is_lit(p)) {
                 sum += p;
                 lit += 1.0;
@@ -296,7 +299,7 @@ void main() {
         }
     }
     vec3 p = lit > 0.0 ? sum / lit : vec3(0.0, 0.0, 1.0);
-    light(p, vec4(0.0), lit / float(raster.x * raster.y), length(right) * float(raster.x) / abs(depth_left));
+    light(p, vec4(0.0), lit / float(raster.x * raster.y), length(right.xyz) * float(raster.x) / abs(depth_left));
 }
 )";
 
@@ -307,16 +310,17 @@ uniform mat4 torch_from_projector; // as above
 uniform vec3 eye;
 uniform vec4 depth_from_nearness;
 uniform ivec4 raster;
-vec3 from_eye(vec2 fragment) {
-    return mat3(torch_from_projector) * vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+vec4 from_eye(vec2 fragment) { // as above
+    vec3 ray = vec3(unbent(fragment * ray_from_fragment.xy + ray_from_fragment.zw), 1.0);
+    return vec4(mat3(torch_from_projector) * ray, dot(depth_from_nearness.xy, ray.xy) + depth_from_nearness.w);
 }
 void main() {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy) - raster.zw, 0).r;
-    float depth_left = 2.0 * depth - 1.0 - depth_from_nearness.w;
-    vec3 to_place = from_eye(gl_FragCoord.xy);
-    vec3 p = eye + to_place / depth_left;
-    place_error = error_of(length(to_place), depth_left);
-    float pixel_m = distance(from_eye(gl_FragCoord.xy + vec2(1.0, 0.0)), to_place) / abs(depth_left);
+    vec4 to_place = from_eye(gl_FragCoord.xy);
+    float depth_left = 2.0 * depth - 1.0 - to_place.w;
+    vec3 p = eye + to_place.xyz / depth_left;
+    place_error = error_of(length(to_place.xyz), depth_left);
+    float pixel_m = distance(from_eye(gl_FragCoord.xy + vec2(1.0, 0.0)).xyz, to_place.xyz) / abs(depth_left);
     light(p, vec4(0.0), depth < 1.0 && is_lit(p) ? 1.0 : 0.0, pixel_m);
 }
 )";

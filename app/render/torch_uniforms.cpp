@@ -134,7 +134,8 @@ void set_depths(const Shader& shader, const scene::TorchFace& face, const glm::i
     const glm::mat4 from_ray(face.from_ray);
     glUniformMatrix4fv(shader.location(Uniform::TorchFromProjector), 1, GL_FALSE, glm::value_ptr(from_ray));
     glUniform3fv(shader.location(Uniform::Eye), 1, glm::value_ptr(face.eye));
-    glUniform4f(shader.location(Uniform::DepthFromNearness), 0.0F, 0.0F, 0.0F, face.end_of_depth);
+    glUniform4f(shader.location(Uniform::DepthFromNearness), face.end_of_depth.x, face.end_of_depth.y, 0.0F,
+                face.end_of_depth.z);
     glUniform4i(shader.location(Uniform::Raster), raster.x, raster.y, raster.z, raster.w);
 }
 

@@ -104,8 +104,16 @@ public:
     [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
     /// The parts of the site that windows show; their pages come last. At most settings::max_windows.
     void expect_in_windows(std::span<const world::SiteView> views);
-    /// Adds all of the site as the prop shows it in this view, each region by its coarsest level that is good enough and there.
-    void show_part(const world::SiteView& view, std::vector<scene::Part>& parts) const;
+    /// A region in a window: an option that it shows, and one that comes.
+    struct SeenRegion {
+        std::size_t shown = 0;
+        std::optional<std::size_t> coming;
+        MonotonicTime fade_start;
+    };
+    /// Adds all of the site as the prop shows it in this view, each region by its coarsest level that is good enough and there; to another
+    /// level it fades as in the prop. `seen`: of the latest call for this window, which `parts` were made by; empty: it is the first.
+    void show_part(MonotonicTime now, const world::SiteView& view, std::vector<SeenRegion>& seen,
+                   std::vector<scene::Part>& parts) const;
     /// Marks a region of the miniature for the next frames; none: no mark.
     void mark(const std::optional<world::RegionBox>& region);
     /// The parts that RunLevels::draw draws beside the whole.
@@ -202,6 +210,8 @@ private:
     }
     /// The quickest option of a cell that is good enough at a zoom.
     [[nodiscard]] std::size_t option_at(std::size_t cell, double zoom) const;
+    /// The first of it and the coarser ones that is there and stays.
+    [[nodiscard]] std::size_t option_in_window(std::size_t cell, double zoom) const;
     /// Sets `wanted_`.
     void want_pages();
     void want_page(std::size_t place);

@@ -1,8 +1,10 @@
 // The pages of a site's regions: which are wanted, and what is drawn until they come.
+#include "app/geometry/time_curves.h"
 #include "app/residency/run_cells.h"
 #include "app/scene/cell_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace frustumscreen::residency {
 
@@ -60,17 +62,53 @@ void RunCells::expect_in_windows(std::span<const world::SiteView> views) {
     std::copy_n(views.begin(), in_windows_count_, in_windows_.begin());
 }
 
-void RunCells::show_part(const world::SiteView& view, std::vector<scene::Part>& parts) const {
-    for (std::size_t k = 0; k < cells_.size() && !poses_.empty(); ++k) {
-        std::size_t option = option_at(k, view.zoom);
-        while (!options_[option].there || options_[option].leaves) {
-            ++option;
+std::size_t RunCells::option_in_window(std::size_t cell, double zoom) const {
+    std::size_t option = option_at(cell, zoom);
+    while (!options_[option].there || options_[option].leaves) { // the proxy is always there
+        ++option;
+    }
+    return option;
+}
+
+void RunCells::show_part(MonotonicTime now, const world::SiteView& view, std::vector<SeenRegion>& seen,
+                         std::vector<scene::Part>& parts) const {
+    if (poses_.empty()) {
+        return;
+    }
+    if (seen.size() != cells_.size()) {
+        seen.clear();
+        for (std::size_t k = 0; k < cells_.size(); ++k) {
+            seen.push_back({.shown = option_in_window(k, view.zoom), .coming = {}, .fade_start = {}});
+        }
+    }
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        SeenRegion& region = seen[k];
+        const std::size_t wanted = option_in_window(k, view.zoom);
+        const double share =
+            region.coming ? geometry::ramp(to_seconds(now - region.fade_start), level_fade_s) : 0.0;
+        if (share >= 1.0) {
+            region.shown = *std::exchange(region.coming, std::nullopt);
+        }
+        if (!region.coming && !options_[region.shown].there) {
+            region.shown = wanted;
+        } else if (!region.coming && region.shown != wanted) {
+            region.coming = wanted;
+            region.fade_start = now;
         }
         world::CellPose pose = poses_[cells_[k].number];
         pose.box_from_geometry = view.matrix() * pose.box_from_geometry;
-        scene::Part& part = parts.emplace_back(scene::Part{options_[option].placed, std::nullopt});
-        scene::set_pose(part.level, pose, metres_per_box_);
-        part.level.beyond = true;
+        const auto add = [&](std::size_t option, const std::optional<scene::Dither>& dither) {
+            scene::Part& part = parts.emplace_back(scene::Part{options_[option].placed, dither});
+            scene::set_pose(part.level, pose, metres_per_box_);
+            part.level.beyond = true;
+        };
+        if (region.coming) {
+            const auto arrived = static_cast<float>(share < 1.0 ? share : 0.0);
+            add(region.shown, scene::Dither{arrived, true});
+            add(*region.coming, scene::Dither{arrived, false});
+        } else {
+            add(region.shown, std::nullopt);
+        }
     }
 }
 

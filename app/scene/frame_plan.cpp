@@ -164,9 +164,7 @@ void plan_frame(const geometry::PropShape& prop, std::span<const Part> parts, co
     if (view.light) {
         compensate(shared, *view.light, open, plan);
     }
-    PlanView lit = view;
-    lit.torches = shared.beyond ? std::span<const PlacedTorch>() : view.torches;
-    plan_torches(parts, lit, shared.box, plan);
+    plan_torches(prop, parts, view, shared.parts_box, plan);
     plan_windows(prop, view, plan);
     plan.prop_hash = hash_of_prop(plan);
     plan.hash = hash_of(plan);

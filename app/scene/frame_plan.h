@@ -63,7 +63,7 @@ struct PlacedLevel {
     /// live as long as the frame's plan.
     const ldi::PointPatch* points = nullptr;
     /// It reaches out of the prop: what lies before a face is cut off there, behind the faces it goes on. Only for triangles; if
-    /// one part does, all parts of a frame count as such, and no torch lights them.
+    /// one part does, all parts of a frame count as such.
     bool beyond = false;
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief && points == nullptr; }
@@ -216,6 +216,8 @@ struct TorchLight {
     /// In the torch's own picture 1 / z is x times the depth, 0..1, and y; or of a relief's nearness (relief/nearness_row.h).
     glm::vec2 inverse_z_of_depth{0.0F}, inverse_z_of_nearness{0.0F};
     float reach_m = 0.0F;
+    /// Torch's frame: the half space a.X + d >= 0 in which a world that reaches out of the prop casts shadows; zero: all of it does.
+    glm::dvec4 casting{0.0};
     PlacedTorch torch;
 };
 /// A draw in the prop that a torch lights, in whole or in part.
@@ -232,10 +234,10 @@ struct TorchFace {
     int face = 0;      ///< index into FramePlan::faces
     LitTiles lit;      ///< contain every pixel that it lights there
     /// Torch's frame: the place at depth z, in normalised device coordinates, along the ideal ray (x, y, 1) is eye +
-    /// from_ray (x, y, 1) / (z - end_of_depth).
+    /// from_ray (x, y, 1) / (z - end_of_depth . (x, y, 1)).
     glm::mat3 from_ray{0.0F};
     glm::vec3 eye{0.0F};
-    float end_of_depth = 0.0F;
+    glm::vec3 end_of_depth{0.0F}; ///< (0, 0, z) but for a world that reaches out of the prop
 };
 /// Pixels along each side of the torch's own picture, in which its shadows are found.
 inline constexpr int torch_picture_px = 512;

@@ -217,6 +217,7 @@ SharedByParts shared_by_all(const geometry::PropShape& prop, std::span<const Par
                    : geometry::Box{glm::min(shared.box.low, box.low), glm::max(shared.box.high, box.high)};
         shared.beyond = shared.beyond || parts[k].level.beyond;
     }
+    shared.parts_box = shared.box;
     if (shared.beyond) {
         shared.box = box_around(prop);
     }

@@ -22,6 +22,7 @@ struct SharedByParts {
     glm::dvec3 projector_in_prop{0.0};
     geometry::RigidTransform prop_from_table = {};
     geometry::Box box = {}; ///< around all parts, prop frame; of parts that reach out of the prop, the prop's
+    geometry::Box parts_box = {}; ///< around all parts
     bool one_part = true;
     bool beyond = false; ///< PlacedLevel::beyond, of a part
 

@@ -1,5 +1,6 @@
 #include "app/scene/torch_plan.h"
 
+#include "app/scene/beyond_prop.h"
 #include "app/scene/torch_tiles.h"
 
 #include <algorithm>
@@ -43,23 +44,25 @@ IndexRange lit_triangles(const LevelTriangles& level, const IndexRange& range, c
 }
 
 /// Sets the map from a pixel's depth to the place. Clip coordinates are linear in the place, and places on one ray differ only in
-/// depth: the inverse map's last row has no x and no y.
-void find_places(const glm::dmat4& torch_from_placed, const Draw& draw, const geometry::Pinhole& pinhole,
-                 TorchFace& face) {
+/// depth. The inverse map's last row has no x and no y, unless the world is cut off at the face (collineation_behind).
+void find_places(const glm::dmat4& torch_from_placed, const Draw& draw, bool is_cut_off,
+                 const geometry::Pinhole& pinhole, TorchFace& face) {
     const glm::dmat4 torch_from_clip = torch_from_placed * glm::inverse(draw.clip_from_placed);
     const double per_depth = torch_from_clip[2].w;
     const glm::dvec3 eye = glm::dvec3(torch_from_clip[2]) / per_depth; // infinitely deep
+    const glm::dvec2 ends = is_cut_off ? -glm::dvec2(torch_from_clip[0].w, torch_from_clip[1].w) / per_depth
+                                       : glm::dvec2(0.0); // of x and y
     const double end = -torch_from_clip[3].w / per_depth;
     const glm::dvec2 half = 0.5 * glm::dvec2(pinhole.width, pinhole.height);
     const glm::dvec2 focal(pinhole.fx, pinhole.fy);
     const glm::dvec2 scale = focal / half; // from a ray to normalised device coordinates
     const glm::dvec2 offset = glm::dvec2(pinhole.cx, pinhole.cy) / half - 1.0;
-    const glm::dvec3 x = glm::dvec3(torch_from_clip[0]) / per_depth;
-    const glm::dvec3 y = glm::dvec3(torch_from_clip[1]) / per_depth;
+    const glm::dvec3 x = glm::dvec3(torch_from_clip[0]) / per_depth + ends.x * eye;
+    const glm::dvec3 y = glm::dvec3(torch_from_clip[1]) / per_depth + ends.y * eye;
     const glm::dvec3 rest = glm::dvec3(torch_from_clip[3]) / per_depth + end * eye;
     face.from_ray = glm::mat3(glm::dmat3(scale.x * x, scale.y * y, offset.x * x + offset.y * y + rest));
     face.eye = glm::vec3(eye);
-    face.end_of_depth = static_cast<float>(end);
+    face.end_of_depth = glm::vec3(glm::dvec3(scale * ends, glm::dot(offset, ends) + end));
 }
 
 /// The eye that looks through a face, prop frame.
@@ -150,6 +153,7 @@ std::pair<glm::vec2, glm::vec2> plan_torch_view(std::span<const Part> parts, con
         if (casts(part)) {
             plan.casters.push_back({part.level, std::nullopt});
             plan.casters.back().level.light = glm::vec3(1.0F); // the lit surface has its light
+            plan.casters.back().level.beyond = false;          // the torch's picture has no face to cut at
         }
     }
     place_before(prop_from_torch, torch.beam, distance, plan.surface);
@@ -166,6 +170,21 @@ std::pair<glm::vec2, glm::vec2> plan_torch_view(std::span<const Part> parts, con
     const glm::dvec4 depth(plan.faces[0].depth_from_nearness);
     const double per_depth = 2.0 * from_nearness / depth.z;
     return {glm::vec2(per_depth, -0.5 * (depth.w + 1.0) * per_depth), glm::vec2(from_nearness, 0.0)};
+}
+
+/// The half space behind the face that is farthest from the torch, torch's frame; zero: it is behind all faces.
+glm::dvec4 casting_before(const geometry::PropShape& prop, const geometry::RigidTransform& torch_from_prop) {
+    const geometry::RigidTransform prop_from_torch = torch_from_prop.inverse();
+    glm::dvec4 casting(0.0);
+    double farthest = 0.0;
+    for (const geometry::PropFace& face : prop.faces) {
+        const double away = face.plane.distance(prop_from_torch.translation);
+        if (away > farthest) {
+            farthest = away;
+            casting = half_space_behind(face, prop_from_torch.matrix());
+        }
+    }
+    return casting;
 }
 
 /// The torch's frame as the shader takes it.
@@ -204,18 +223,21 @@ bool is_found_on_processor(const FramePlan& view) {
     });
 }
 
-void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,
-                  FramePlan& plan) {
+void plan_torches(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view,
+                  const geometry::Box& box, FramePlan& plan) {
     plan.torches.clear();
     plan.torch_draws.clear();
     plan.torch_faces.clear();
     if (plan.faces.empty()) {
         return;
     }
+    const bool is_beyond =
+        std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.level.beyond; });
     const double radius = 0.5 * glm::distance(box.low, box.high);
     for (const PlacedTorch& torch : view.torches) {
         if (!(torch.brightness > 0.0F) || torch.stage_count == 0 ||
-            plan.torches.size() == plan.torch_views.size()) {
+            plan.torches.size() == plan.torch_views.size() ||
+            (is_beyond && (parts_of(torch) & torch::LayerPart) != 0)) {
             continue;
         }
         const geometry::RigidTransform torch_from_prop =
@@ -246,7 +268,8 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
                 continue;
             }
             face.draw = k;
-            find_places(torch_from_prop.matrix() * level.prop_from_placed, draw, plan.projector, face);
+            find_places(torch_from_prop.matrix() * level.prop_from_placed, draw, is_beyond, plan.projector,
+                        face);
             if (level.triangles && (parts_of(torch) & torch::LayerPart) != 0) {
                 lit.range = lit_triangles(
                     *level.triangles, draw.range,
@@ -260,6 +283,7 @@ void plan_torches(std::span<const Part> parts, const PlanView& view, const geome
             }
         }
         TorchLight light = light_of(torch, view);
+        light.casting = is_beyond ? casting_before(prop, torch_from_prop) : glm::dvec4(0.0);
         if (torch.casts_shadows) {
             std::tie(light.inverse_z_of_depth, light.inverse_z_of_nearness) =
                 plan_torch_view(parts, view, torch, box, plan.torch_views[number]);

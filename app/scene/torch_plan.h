@@ -21,8 +21,11 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
 /// the GPU does not draw. `view`: one of FramePlan::torch_views.
 [[nodiscard]] bool is_found_on_processor(const FramePlan& view);
 
-/// Adds the view's torches to a plan of the same parts. `box`: around all parts, prop frame.
-void plan_torches(std::span<const Part> parts, const PlanView& view, const geometry::Box& box,
-                  FramePlan& plan);
+/// Adds the view's torches to a plan of the same parts of `prop`. `box`: around all parts, prop frame.
+///
+/// Of a world that reaches out of the prop, only what lies behind the face that is farthest from the torch casts shadows: what the faces
+/// cut off around the torch is not seen. A layer does not show there.
+void plan_torches(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view,
+                  const geometry::Box& box, FramePlan& plan);
 
 } // namespace frustumscreen::scene

@@ -79,6 +79,11 @@ std::span<const scene::PlacedTorch> ArtifactShow::throw_light(const exhibit::Pre
     if (contents == nullptr) {
         return {};
     }
+    const std::optional<std::size_t>& before = contents->artifact();
+    if (windows_ && before && *before != presentation.artifact && windows_->shows_contents_of(*before)) {
+        contents->step(renderer_.store(), *before, {}); // until the windows' light has faded
+        return torches_ ? torches_->place(presentation, *contents) : std::span<const scene::PlacedTorch>();
+    }
     const std::span<const std::size_t> layers =
         windows_ ? windows_->layers_of(set_->artifact_cache->known(presentation.artifact))
                  : std::span<const std::size_t>();
@@ -154,7 +159,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     }
     WindowShow* const windows = windows_ ? &*windows_ : nullptr;
     if (windows != nullptr) {
-        view.windows = windows->place(presentation, eyes_m, artifact_cache, view.torches);
+        view.windows = windows->place(now, presentation, eyes_m, artifact_cache, view.torches);
         windows->place_frames(presentation, caption_brightness_, on_table_);
         place_state_titles(presentation);
     }
@@ -249,7 +254,8 @@ ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
     ShowState state{.artifact = kept(artifact_cache.known(presentation.artifact).outline.description.title),
                     .language = kept(presentation.language),
                     .levels = levels,
-                    .settled = presentation.settled && (cells == nullptr || !cells->fades())};
+                    .settled = presentation.settled && (cells == nullptr || !cells->fades()) &&
+                               !(windows_ && windows_->fades())};
     state.stands = presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt;
     state.left_out = artifact_cache.left_out();
     state.lamps = presentation.lamps;

@@ -106,9 +106,10 @@ std::span<const scene::PlacedTorch> TorchShow::place(const exhibit::Presentation
     for (const exhibit::PresentedLight& light : presentation.torches.lights()) {
         const torch::Content* const thrown =
             light.content ? contents.find(presentation.artifact, *light.content) : &white_;
-        const residency::TorchContents::Shown shown = light.content && thrown != nullptr
-                                                          ? contents.shown(*light.content)
-                                                          : residency::TorchContents::Shown{.ready = true};
+        residency::TorchContents::Shown shown{.ready = !light.content};
+        if (light.content && contents.artifact() == presentation.artifact) {
+            shown = contents.shown(*light.content);
+        }
         if (thrown == nullptr || !shown.ready) {
             continue;
         }

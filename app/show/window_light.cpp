@@ -3,6 +3,7 @@
 #include "app/scene/torch_tiles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace frustumscreen::show {
 
@@ -40,15 +41,33 @@ void WindowLight::leave_out_beside(const scene::WorldBall& world) {
     });
 }
 
-bool WindowLight::leave_out_textures() {
-    return leave_out(shows_texture);
+bool WindowLight::shows_textures() const {
+    return std::any_of(in_prop_.begin(), in_prop_.begin() + static_cast<std::ptrdiff_t>(count_),
+                       shows_texture);
+}
+
+bool WindowLight::fade_textures(MonotonicTime now, bool is_on_show) {
+    const double step = faded_at_ ? to_seconds(now - *faded_at_) / fade_s : 0.0;
+    faded_at_ = now;
+    share_ = std::clamp(share_ + (is_on_show ? step : -step), 0.0, 1.0);
+    return share_ <= 0.0 && leave_out(shows_texture);
+}
+
+/// It comes back with the last light that fades.
+double WindowLight::house_light() const {
+    const auto end = in_prop_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const bool all_fade = std::all_of(in_prop_.begin(), end, shows_texture);
+    return !is_lit() ? 1.0 : std::lerp(1.0, house_light_, all_fade ? share_ : 1.0);
 }
 
 std::span<const scene::PlacedTorch> WindowLight::behind(const scene::PinnedView& view,
                                                         const geometry::RigidTransform& table_from_window) {
-    std::transform(
-        in_prop_.begin(), in_prop_.begin() + static_cast<std::ptrdiff_t>(count_), behind_.begin(),
-        [&](const scene::PlacedTorch& torch) { return scene::moved_behind(view, table_from_window, torch); });
+    std::transform(in_prop_.begin(), in_prop_.begin() + static_cast<std::ptrdiff_t>(count_), behind_.begin(),
+                   [&](const scene::PlacedTorch& torch) {
+                       scene::PlacedTorch moved = scene::moved_behind(view, table_from_window, torch);
+                       moved.brightness *= shows_texture(torch) ? static_cast<float>(share_) : 1.0F;
+                       return moved;
+                   });
     return std::span(behind_).first(count_);
 }
 

@@ -1,6 +1,6 @@
 /// The torches' light in a window: as it lay on the artifact when the window was pinned, or, in a live window, as it lies there now.
 ///
-/// Textures  pictures, films and layers are there while their artifact is on show; then their light leaves its windows.
+/// Textures  pictures, films and layers stay for `fade_s` after their artifact was on show, in which their light leaves its windows.
 /// Frames    table T; prop P; window: as scene::PinnedView.
 /// Threads   values; one caller. Allocates nothing.
 /// Errors    none.
@@ -9,9 +9,11 @@
 #include "app/geometry/transform.h"
 #include "app/scene/pinned_view.h"
 #include "app/scene/placed_torch.h"
+#include "firmware_host/base/time.h"
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace frustumscreen::show {
@@ -25,17 +27,24 @@ struct LightInProp {
 
 class WindowLight {
 public:
+    static constexpr double fade_s = 0.5; ///< of what shows textures
+
     /// Keeps the light that lies on the prop now.
     void keep(const LightInProp& light);
     /// Leaves the torches out that do not meet this world, prop frame.
     void leave_out_beside(const scene::WorldBall& world);
-    /// Leaves the torches out that show textures of the artifact. True: there were some.
-    bool leave_out_textures();
+    /// Once a frame: fades what shows textures of the artifact, down while another one is on show and up while it is, and at the end
+    /// leaves those torches out. True: it left some out.
+    bool fade_textures(MonotonicTime now, bool is_on_show);
     void put_out() { *this = {}; }
 
     [[nodiscard]] bool is_lit() const { return count_ > 0; }
     /// Factor of the light of the artifact's own colours.
-    [[nodiscard]] double house_light() const { return is_lit() ? house_light_ : 1.0; }
+    [[nodiscard]] double house_light() const;
+    /// True if a torch shows textures of the artifact.
+    [[nodiscard]] bool shows_textures() const;
+    /// True while it fades.
+    [[nodiscard]] bool fades() const { return shows_textures() && share_ < 1.0; }
     /// For a window of this view that stands at `table_from_window`; valid until the next call.
     [[nodiscard]] std::span<const scene::PlacedTorch>
     behind(const scene::PinnedView& view, const geometry::RigidTransform& table_from_window);
@@ -47,6 +56,8 @@ private:
     std::array<scene::PlacedTorch, torch::max_torches> behind_{};
     std::size_t count_ = 0;
     double house_light_ = 1.0;
+    double share_ = 1.0;                    ///< of the light that shows textures
+    std::optional<MonotonicTime> faded_at_; ///< the latest step
 };
 
 } // namespace frustumscreen::show

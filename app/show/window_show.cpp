@@ -59,18 +59,20 @@ std::uint64_t WindowShow::planned_gpu_bytes() const {
 
 void WindowShow::make_space(const residency::ArtifactCache& cache) {
     std::vector<const residency::KnownArtifact*> artifacts;
-    std::size_t indices = 0, parts = 1;
+    std::size_t indices = 0, parts = 1, regions = 0;
     for (std::size_t artifact = 0; artifact < cache.size(); ++artifact) {
         const residency::KnownArtifact& known = cache.known(artifact);
         artifacts.push_back(&known);
         indices = std::max(indices, max_indices_of(known.outline, known.plan));
         if (known.world) {
             std::size_t of_cells = 0;
+            const std::size_t levels = known.world->is_site ? 2 : 1; // a region fades from one to another
             for (const residency::KnownCell& cell : known.world->drawn) {
-                of_cells += max_indices_of(cell.outline, cell.plan);
+                of_cells += levels * max_indices_of(cell.outline, cell.plan);
             }
             indices = std::max(indices, of_cells);
-            parts = std::max(parts, known.world->drawn.size());
+            parts = std::max(parts, levels * known.world->drawn.size());
+            regions = std::max(regions, known.world->is_site ? known.world->drawn.size() : 0);
         }
     }
     frozen_.make_space(artifacts);
@@ -81,6 +83,7 @@ void WindowShow::make_space(const residency::ArtifactCache& cache) {
         held = {};
         held.parts.reserve(parts + 1); // with the whole artifact, while it fades to its cells or back
         held.moved.reserve(parts + 1);
+        held.seen.reserve(regions);
         held.view.surface = scene::window_surface(windows_.width_m, windows_.depth_m);
     };
     std::for_each(held_.begin(), held_.end(), make);

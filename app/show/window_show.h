@@ -7,8 +7,9 @@
 ///          states together need, so that they compare. Until the layer has come, the window is dark.
 /// Time     the windows' time is part of the frame's, which the governor bounds by the level in the prop; frames that miss their
 ///          deadline nevertheless draw windows with one sample a pixel (window_samples.h).
-/// Live     the cells of a live window stand as those in the prop do, and torches light it as the prop, while the artifact is on show.
-/// Torches  another window keeps the light that lay on the artifact when it was pinned; a state has none (window_light.h).
+/// Live     the cells of a live window stand as those in the prop do, and torches light it as the prop, while the artifact is on show;
+///          a part of a site while it stands in the prop.
+/// Torches  another window, also of a state, keeps the light that lay on the artifact when it was pinned (window_light.h).
 /// Slant    a window is seen from within 60 degrees of its normal; beyond `full_deg` it fades, and is dark at the limit. Its
 ///          frame stays.
 /// Memory   one plan for each window and eye, for the largest level of any artifact of the set; the plan of the frame
@@ -61,10 +62,13 @@ public:
     void place_frames(const exhibit::Presentation& presentation, double brightness,
                       residency::OnTable& on_table) const;
     /// Freezes new windows, and returns the windows that are seen; valid until the next call. `torches`: that light the prop.
-    [[nodiscard]] std::span<const scene::PlacedWindow> place(const exhibit::Presentation& presentation,
-                                                             std::span<const glm::dvec3> eyes_m,
-                                                             const residency::ArtifactCache& cache,
-                                                             std::span<const scene::PlacedTorch> torches);
+    [[nodiscard]] std::span<const scene::PlacedWindow>
+    place(MonotonicTime now, const exhibit::Presentation& presentation, std::span<const glm::dvec3> eyes_m,
+          const residency::ArtifactCache& cache, std::span<const scene::PlacedTorch> torches);
+    /// True if a window in the latest picture fades: from one level to another, or its light.
+    [[nodiscard]] bool fades() const;
+    /// True if torches in a window throw pictures, films or layers of the artifact, which must stay until it has faded.
+    [[nodiscard]] bool shows_contents_of(std::size_t artifact) const;
     /// A frame took `ms` until it was complete.
     void record_time(MonotonicTime now, double ms) { samples_.record(now, ms, shows_); }
     /// The level in a window at a place, to draw one frame with.
@@ -77,6 +81,7 @@ public:
 private:
     struct Held {
         std::uint32_t number = 0, comings = 0;
+        std::size_t artifact = 0;
         double turn_rad = 0.0, zoom = 1.0; ///< as aimed
         bool is_frozen = false;            ///< false: its layer has not come yet
         bool follows = false;              ///< as PresentedWindow::follows
@@ -86,22 +91,25 @@ private:
         scene::PinnedView view;
         bool is_aimed = false;
         WindowLight light;
-        std::optional<world::SiteView> part; ///< of a site, that it shows
+        std::optional<world::SiteView> part;               ///< of a site, that it shows
+        std::vector<residency::RunCells::SeenRegion> seen; ///< of that part
         /// Its levels may leave the memory.
         void let_go();
     };
     /// Drops the copies that windows held which are no longer presented.
     void let_go(const exhibit::PresentedWindows& presented);
-    [[nodiscard]] Held& held_of(const exhibit::PresentedWindow& window,
+    [[nodiscard]] Held& held_of(MonotonicTime now, const exhibit::PresentedWindow& window,
                                 const exhibit::PresentedWindows& presented,
                                 const residency::ArtifactCache& cache, const LightInProp& light);
+    /// Leaves out the light that does not meet what the window shows.
+    void limit_light(Held& held) const;
     /// Sets `parts`, unless what they need has not come.
-    void freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
-                Held& held) const;
+    void freeze(MonotonicTime now, const exhibit::PresentedWindow& window,
+                const residency::ArtifactCache& cache, Held& held) const;
     void aim(const exhibit::PresentedWindow& window, const std::optional<scene::WorldBall>& states,
              Held& held) const;
     /// Sets what the window shows in this frame.
-    void update(const exhibit::PresentedWindow& window, bool is_on_show,
+    void update(MonotonicTime now, const exhibit::PresentedWindow& window, bool is_on_show,
                 const residency::ArtifactCache& cache, const LightInProp& light, Held& held);
     /// Patches show a frozen window in its level's own colours; other windows are drawn by their parts.
     void begin_patches(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
@@ -110,13 +118,13 @@ private:
                                                           const geometry::RigidTransform& table_from_window,
                                                           std::span<const glm::dvec3> eyes_m);
     /// The region of a site that is marked, as the prop will show it. False: none is, or it is not seen.
-    [[nodiscard]] bool place_preview(const exhibit::Presentation& presentation,
+    [[nodiscard]] bool place_preview(MonotonicTime now, const exhibit::Presentation& presentation,
                                      std::span<const glm::dvec3> eyes_m,
                                      const residency::ArtifactCache& cache, scene::PlacedWindow& placed);
     void set_samples(Held& held) const;
     /// Sets the parts of a window that shows a part of a site to the best levels that are there, of all regions: its eye sees others than
     /// the prop's faces.
-    static void refresh(const residency::RunCells& cells, Held& held);
+    static void refresh(MonotonicTime now, const residency::RunCells& cells, Held& held);
     /// Tells each site which parts of it windows show.
     void expect_parts(const exhibit::Presentation& presentation, const residency::ArtifactCache& cache) const;
     /// Sets the parts and the light of a live window to what the prop shows now.

@@ -44,11 +44,10 @@ bool is_beyond(std::span<const scene::Part> parts) {
 } // namespace
 
 /// Keeps the parts that the prop shows, or those of a state. If two levels fade in a cell, it keeps the one that fades in.
-void WindowShow::freeze(const exhibit::PresentedWindow& window, const residency::ArtifactCache& cache,
-                        Held& held) const {
-    held.parts.clear();
+void WindowShow::freeze(MonotonicTime now, const exhibit::PresentedWindow& window,
+                        const residency::ArtifactCache& cache, Held& held) const {
+    held.let_go();
     held.is_frozen = true;
-    held.part.reset();
     const residency::RunCells* const cells = cache.find_cells(window.artifact);
     const residency::RunLevels& levels = *cache.find(window.artifact);
     if (window.state && cells != nullptr) {
@@ -62,7 +61,7 @@ void WindowShow::freeze(const exhibit::PresentedWindow& window, const residency:
         }
     } else if (cells != nullptr && cells->shown_part()) {
         held.part = cells->shown_part();
-        cells->show_part(*held.part, held.parts);
+        cells->show_part(now, *held.part, held.seen, held.parts);
     } else if (window.live && cells != nullptr) {
         cells->show_moving(held.parts);
     } else if (cells != nullptr) {
@@ -113,9 +112,9 @@ void WindowShow::set_samples(Held& held) const {
     }
 }
 
-void WindowShow::refresh(const residency::RunCells& cells, Held& held) {
+void WindowShow::refresh(MonotonicTime now, const residency::RunCells& cells, Held& held) {
     held.parts.clear();
-    cells.show_part(*held.part, held.parts);
+    cells.show_part(now, *held.part, held.seen, held.parts);
     scene::move_behind(held.view.window_from_prop, held.parts, held.moved);
 }
 
@@ -159,6 +158,7 @@ void WindowShow::Held::let_go() {
     parts.clear();
     moved.clear();
     part.reset();
+    seen.clear();
 }
 
 void WindowShow::let_go(const exhibit::PresentedWindows& presented) {
@@ -167,11 +167,22 @@ void WindowShow::let_go(const exhibit::PresentedWindows& presented) {
         if (std::none_of(all.begin(), all.end(),
                          [&](const auto& window) { return window.number == held.number; })) {
             held.let_go();
+            held.light.put_out();
         }
     }
 }
 
-WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
+void WindowShow::limit_light(Held& held) const {
+    const std::optional<scene::WorldBall> ball =
+        is_beyond(held.parts) ? std::optional(prop_ball_) : scene::ball_around(held.parts);
+    if (ball) {
+        held.light.leave_out_beside(*ball);
+    } else {
+        held.light.put_out();
+    }
+}
+
+WindowShow::Held& WindowShow::held_of(MonotonicTime now, const exhibit::PresentedWindow& window,
                                       const exhibit::PresentedWindows& presented,
                                       const residency::ArtifactCache& cache, const LightInProp& light) {
     const auto is_presented = [&](const Held& held) {
@@ -186,20 +197,21 @@ WindowShow::Held& WindowShow::held_of(const exhibit::PresentedWindow& window,
         found = std::find_if_not(held_.begin(), held_.end(), is_presented);
         assert(found != held_.end());
         found->number = window.number;
+        found->artifact = window.artifact;
         found->comings = 0;
         found->is_aimed = false;
         found->is_frozen = false;
         found->follows = false;
         found->light.put_out();
         found->lost = cache.find(window.artifact) == nullptr;
+        if (!found->lost) {
+            found->light.keep(light); // the layer of a state may come later
+        }
     }
     if (!found->lost && !found->is_frozen && cache.find(window.artifact) != nullptr) {
-        freeze(window, cache, *found);
-        const std::optional<scene::WorldBall> ball =
-            window.state || is_beyond(found->parts) ? std::nullopt : scene::ball_around(found->parts);
-        if (ball) {
-            found->light.keep(light);
-            found->light.leave_out_beside(*ball);
+        freeze(now, window, cache, *found);
+        if (found->is_frozen) {
+            limit_light(*found);
         }
     }
     return *found;
@@ -237,7 +249,7 @@ const scene::WindowPatches* WindowShow::patches_for(std::uint32_t number,
     return frozen_.look(number, std::span(eyes).first(count));
 }
 
-void WindowShow::update(const exhibit::PresentedWindow& window, bool is_on_show,
+void WindowShow::update(MonotonicTime now, const exhibit::PresentedWindow& window, bool is_on_show,
                         const residency::ArtifactCache& cache, const LightInProp& light, Held& held) {
     const residency::RunCells* const cells = cache.find_cells(window.artifact);
     const bool is_new =
@@ -245,18 +257,36 @@ void WindowShow::update(const exhibit::PresentedWindow& window, bool is_on_show,
     if (is_new) {
         aim(window, cells != nullptr ? cells->states_ball() : std::nullopt, held);
     }
-    const bool is_darker = !is_on_show && held.light.leave_out_textures();
-    if (is_new || is_darker || held.follows != window.follows) {
+    if (is_new || held.follows != window.follows) {
         begin_patches(window, cache, held);
     }
     if (held.part && held.is_aimed && cells != nullptr) {
-        refresh(*cells, held);
+        refresh(now, *cells, held);
+        if (window.live && is_on_show && cells->shown_part() == held.part) {
+            held.light.keep(light);
+        }
     } else if (window.live && !window.state && held.is_aimed && is_on_show) {
         go_on(window, cache, light, held);
     }
 }
 
-std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentation& presentation,
+bool WindowShow::fades() const {
+    const auto fades = [](const Held& held) {
+        return held.light.fades() || std::any_of(held.seen.begin(), held.seen.end(), [](const auto& region) {
+                   return region.coming.has_value();
+               });
+    };
+    return fades(preview_) || std::any_of(held_.begin(), held_.end(), fades);
+}
+
+bool WindowShow::shows_contents_of(std::size_t artifact) const {
+    return std::any_of(held_.begin(), held_.end(), [artifact](const Held& held) {
+        return held.artifact == artifact && held.light.shows_textures();
+    });
+}
+
+std::span<const scene::PlacedWindow> WindowShow::place(MonotonicTime now,
+                                                       const exhibit::Presentation& presentation,
                                                        std::span<const glm::dvec3> eyes_m,
                                                        const residency::ArtifactCache& cache,
                                                        std::span<const scene::PlacedTorch> torches) {
@@ -266,15 +296,21 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
     let_go(presentation.windows);
     std::size_t count = 0;
     for (const exhibit::PresentedWindow& window : presentation.windows.windows()) {
-        Held& held = held_of(window, presentation.windows, cache, light);
+        Held& held = held_of(now, window, presentation.windows, cache, light);
         held.lost = held.lost || cache.find(window.artifact) == nullptr;
         if (held.lost) {
             held.let_go();
+            held.light.put_out();
         }
+        const bool is_on_show = window.artifact == presentation.artifact;
+        const bool is_darker = held.light.fade_textures(now, is_on_show);
         if (held.lost || !held.is_frozen || window.comings == 0) {
             continue;
         }
-        update(window, window.artifact == presentation.artifact, cache, light, held);
+        update(now, window, is_on_show, cache, light, held);
+        if (is_darker) {
+            begin_patches(window, cache, held); // its own colours are left
+        }
         const double brightness = cache.exposure(window.artifact) * window.brightness *
                                   share_for(eyes_m, window.rectangle.centre_m) * held.light.house_light();
         if (!held.is_aimed || brightness <= 0.0 || count >= placed_.size()) {
@@ -292,7 +328,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
                                .torches = held.light.behind(held.view, table_from_window)};
     }
     if (count < windows_.count) { // the plans have room for so many
-        count += place_preview(presentation, eyes_m, cache, placed_.at(count)) ? 1 : 0;
+        count += place_preview(now, presentation, eyes_m, cache, placed_.at(count)) ? 1 : 0;
     }
     expect_parts(presentation, cache);
     frozen_.step(presentation.windows.windows());
@@ -300,8 +336,9 @@ std::span<const scene::PlacedWindow> WindowShow::place(const exhibit::Presentati
     return std::span(placed_).first(count);
 }
 
-bool WindowShow::place_preview(const exhibit::Presentation& presentation, std::span<const glm::dvec3> eyes_m,
-                               const residency::ArtifactCache& cache, scene::PlacedWindow& placed) {
+bool WindowShow::place_preview(MonotonicTime now, const exhibit::Presentation& presentation,
+                               std::span<const glm::dvec3> eyes_m, const residency::ArtifactCache& cache,
+                               scene::PlacedWindow& placed) {
     const std::optional<exhibit::PresentedTitle>& place = presentation.site_map;
     const residency::RunCells* const cells = cache.find_cells(presentation.artifact);
     if (!place || place->title.behaviour < exhibit::site_preview_title || cells == nullptr) {
@@ -315,11 +352,12 @@ bool WindowShow::place_preview(const exhibit::Presentation& presentation, std::s
     if (is_marked) { // else it fades out as it is
         if (preview_.number != number) {
             preview_.number = number;
+            preview_.seen.clear();
             preview_eye_m_ = eyes_m.front();
             preview_table_from_prop_ = presentation.table_from_prop;
         }
         preview_.parts.clear();
-        cells->show_part(cells->goal()->view, preview_.parts);
+        cells->show_part(now, cells->goal()->view, preview_.seen, preview_.parts);
         aim({.number = 0,
              .artifact = presentation.artifact,
              .comings = 0,

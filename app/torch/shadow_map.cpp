@@ -91,8 +91,12 @@ ShadowMap::Corner ShadowMap::corner_at(const glm::dvec3& place, double metres) c
 
 void ShadowMap::place_corners(const View& view, std::span<const glm::vec3> positions) {
     corners_.resize(positions.size());
+    const bool is_cut = view.casting != glm::dvec4(0.0);
     for (std::size_t k = 0; k < positions.size(); ++k) {
-        corners_[k] = corner_at(view.picture_from_model * glm::dvec4(positions[k], 1.0), view.metres);
+        const glm::dvec3 place = view.picture_from_model * glm::dvec4(positions[k], 1.0);
+        corners_[k] = is_cut && !(glm::dot(view.casting, glm::dvec4(place, 1.0)) >= 0.0)
+                          ? Corner{.column = needs_cutting}
+                          : corner_at(place, view.metres);
     }
 }
 
@@ -101,7 +105,9 @@ void ShadowMap::draw(const View& view, std::span<const glm::vec3> positions,
     place_corners(view, positions);
     // A front turns anticlockwise, unless the view mirrors.
     const bool mirrored = glm::determinant(glm::dmat3(view.picture_from_model)) < 0.0;
-    float* const turned_away = view.from_within ? backs().data() : nearness_.data();
+    float* const turned_away = view.casting != glm::dvec4(0.0) ? nullptr
+                               : view.from_within              ? backs().data()
+                                                               : nearness_.data();
     clockwise_ = mirrored ? nearness_.data() : turned_away;
     others_ = mirrored ? turned_away : nearness_.data();
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
@@ -162,6 +168,10 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c,
         draw_triangle(a, c, b, false);
         return;
     }
+    float* const into = clockwise ? clockwise_ : others_;
+    if (into == nullptr) {
+        return;
+    }
     // A middle on the right or lower border of the corners' box belongs to a neighbour.
     const int left = std::min({a.column, b.column, c.column});
     const int right = std::max({a.column, b.column, c.column}) - 1;
@@ -183,7 +193,7 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c,
     const double per_y = per_area * (rise_c * static_cast<double>(ab_x) - rise_b * static_cast<double>(ac_x));
     double at = near_a + (per_x * static_cast<double>(x0 - a.x) + per_y * static_cast<double>(y0 - a.y)) /
                              parts_of_pixel;
-    float* row = (clockwise ? clockwise_ : others_) + static_cast<std::ptrdiff_t>(top) * width_ + left;
+    float* row = into + static_cast<std::ptrdiff_t>(top) * width_ + left;
     for (int y = top; y <= bottom; ++y, row += width_, at += per_y) {
         int first = 0;
         int last = right - left;
@@ -206,14 +216,16 @@ void ShadowMap::draw_cut(const View& view, const glm::dvec3& a, const glm::dvec3
     if (!std::isfinite(a.x + a.y + a.z + b.x + b.y + b.z + c.x + c.y + c.z)) {
         return;
     }
-    geometry::CutPolygon<8> polygon({a, b, c});
+    constexpr std::size_t max_corners = 9;
+    geometry::CutPolygon<max_corners> polygon({a, b, c});
+    polygon.cut([&](const glm::dvec3& place) { return glm::dot(view.casting, glm::dvec4(place, 1.0)); });
     polygon.cut([](const glm::dvec3& place) { return place.z - min_z_m; });
     constexpr double guard = guard_px - 1.0;
     for (const glm::dvec3& plane : {glm::dvec3(1.0, 0.0, guard), glm::dvec3(-1.0, 0.0, guard),
                                     glm::dvec3(0.0, 1.0, guard), glm::dvec3(0.0, -1.0, guard)}) {
         polygon.cut([&](const glm::dvec3& place) { return glm::dot(plane, place); });
     }
-    std::array<Corner, 8> corners{};
+    std::array<Corner, max_corners> corners{};
     const std::span<const glm::dvec3> places = polygon.corners();
     for (std::size_t k = 0; k < places.size(); ++k) {
         corners[k] = corner_at({places[k].x, places[k].y, std::max(places[k].z, min_z_m)}, view.metres);

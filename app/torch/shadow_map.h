@@ -9,7 +9,8 @@
 /// Threads  each one at a time. It keeps memory: a second `draw` of no more positions allocates nothing.
 /// Errors   none: a triangle whose corner is not finite is not drawn; nearer than 1/10 mm nothing is.
 /// Method   corners are rounded to 1/256 of a pixel, then each edge function is exact in 64 bits, and pixels on an edge belong to
-///          both triangles: a surface has no gaps. Triangles that reach beyond a guard band or behind the torch are cut.
+///          both triangles: a surface has no gaps. Triangles that reach beyond a guard band, behind the torch or out of
+///          the half space are cut.
 #pragma once
 
 #include "firmware_host/base/pixel_rectangle.h"
@@ -40,6 +41,9 @@ public:
         double metres = 1.0; ///< the nearness is this over z
         /// The torch may be inside the object: triangles that are turned away go into `backs`.
         bool from_within = false;
+        /// Only what lies in the half space a.(x z, y z, z) + d >= 0 is drawn, and of that only what is turned to the torch: an object
+        /// that is cut open is seen through from within. Zero: all.
+        glm::dvec4 casting{0.0};
     };
     /// `indices`: three for each triangle, which has two sides.
     void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
@@ -111,7 +115,9 @@ private:
     bool has_backs_ = false;
     float max_share_ = 0.0F; ///< the slack
     std::vector<Corner> corners_;
-    float *clockwise_ = nullptr, *others_ = nullptr; ///< where the view's triangles go: one of the two above
+    float *clockwise_ = nullptr,
+          *others_ =
+              nullptr; ///< where the view's triangles go: one of the two above; null: they are left out
 };
 
 } // namespace frustumscreen::torch

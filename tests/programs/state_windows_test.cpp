@@ -24,23 +24,33 @@ protected:
     void SetUp() override {
         static const pack::Pack pack = chest(world::Trigger::Button, false);
         ASSERT_TRUE(write_file(folder / "chest.fspack", pack::write_pack(pack).value()));
+        put("still.csv", poses(false));
+        put("lit.csv", poses(true));
+    }
+    /// A still prop. `torch`: from five seconds on, above it on the right, pointed at it.
+    [[nodiscard]] static std::string poses(bool torch) {
         std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
         for (int k = 0; k < 140; ++k) {
             poses += fmt::format("{},1,0,0,0,1,0,0,0,1\n", 100'000 * k);
+            if (torch && k >= 50) { // its z axis is down and to the left
+                poses += fmt::format("{},3,0.16,0,0.36,0,0.97437,0,-0.22495,1\n", 100'000 * k);
+            }
         }
-        put("still.csv", poses);
+        return poses;
     }
     /// The picture after nine seconds. `windows`: keys of the settings; `presses`: button 6 pins, 5 opens the lid.
-    [[nodiscard]] image::Image8 picture(const std::string& windows, const std::string& presses) const {
+    [[nodiscard]] image::Image8 picture(const std::string& windows, const std::string& presses,
+                                        bool torch = false) const {
         put("kiosk.toml",
             fmt::format(
                 "[projector]\nwidth = 640\nheight = 400\nfx = 1000.0\nrefresh_hz = 20.0\n"
                 "position_m = [0.0, 0.0, 0.9]\naim_m = [0.0, 0.0, 0.0]\n[prop]\nkind = \"solid\"\nfile = "
                 "\"{}/config/prop_cube.obj\"\n[table]\nwidth_m = 0.576\ndepth_m = 0.36\n[tracker]\n"
-                "kind = \"replay\"\nposes = \"still.csv\"\n[eye]\ntracked = false\n[exhibit]\npacks = "
+                "kind = \"replay\"\nposes = \"{}.csv\"\n[eye]\ntracked = false\n[exhibit]\npacks = "
                 "[\"chest.fspack\"]\ncaptions = false\ntable_pictures = false\nzone_frame = false\n"
                 "guidance = false\n[windows]\nwidth_m = 0.09\ndepth_m = 0.09\n{}\n[panel]\nscript = [{}]\n",
-                source_dir(), windows, presses));
+                source_dir(), torch ? "lit" : "still",
+                windows + (torch ? "\n[torch]\nsource = \"tracker\"" : ""), presses));
         EXPECT_EQ(
             run("frustumscreen run --config kiosk.toml --headless --fast --stills 4 --seconds 12 --out out"),
             0)
@@ -86,6 +96,20 @@ TEST_F(StateWindows, FrozenOnesStayLiveOnesMoveAndAStateIsWhatTheBehaviourLeaves
     EXPECT_EQ(between(live, frozen).pixels, apart(live, frozen, window)) << "the prop shows the same";
     const image::Image8 state = picture("count = 1", pin + ", { at_s = 4.0, button = 6 }");
     EXPECT_EQ(apart(state, live, window), 0) << "as the behaviour leaves it";
+}
+
+/// Rays say of a live window where the light falls (tests/render/window_light_test.cpp). The window of the state has the same moment's.
+TEST_F(StateWindows, AStateIsLitAsThePropWas) {
+    const std::string pin = "{ at_s = 1.0, button = 6 }", open = "{ at_s = 3.0, button = 5 }";
+    const std::string again = "{ at_s = 7.0, button = 6 }";
+    const Region window = between(picture("count = 1", ""), picture("count = 1", pin));
+    const image::Image8 unlit = picture("count = 1", pin + ", " + again);
+    const image::Image8 live = picture("count = 1\nlive = true", pin + ", " + open, true);
+    const image::Image8 state = picture("count = 1", pin + ", " + again, true);
+    EXPECT_GT(apart(state, unlit, window), 300) << "the torch's light is in it";
+    EXPECT_EQ(apart(state, live, window), 0) << "as on the open lid";
+    const image::Image8 before = picture("count = 1", pin + ", { at_s = 4.0, button = 6 }", true);
+    EXPECT_EQ(apart(before, unlit, window), 0) << "the torch came later";
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,12 +43,13 @@ public:
         : Compared(world, table, torches, tolerance, table.table_from_prop.inverse().point(table.eye_m),
                    [&](const glm::dvec2& pixel) { return world.seen(table, pixel); }) {}
     /// `table`: in which the torches light the prop. `eye`: prop frame. `seen`: of the world, by pixels of the two pictures.
+    /// `cut`: as TorchTruth.
     Compared(const Interlocked& world, const TestTable& table, std::span<const scene::PlacedTorch> torches,
              const Tolerance& tolerance, const glm::dvec3& eye,
-             std::function<SeenPart(const glm::dvec2&)> seen)
+             std::function<SeenPart(const glm::dvec2&)> seen, const std::optional<geometry::Plane>& cut = {})
         : torches_(torches), tolerance_(tolerance), eye_(eye), seen_(std::move(seen)) {
         for (const scene::PlacedTorch& torch : torches) {
-            truths_.emplace_back(world, torch, table);
+            truths_.emplace_back(world, torch, table, cut);
         }
     }
     void count(const image::Image8& without, const image::Image8& with, Counts& counts) const {

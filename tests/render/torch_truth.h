@@ -16,11 +16,24 @@
 
 namespace frustumscreen::synthetic {
 
+/// The first place that a ray meets from the front: objects that are cut open are seen through from within.
+inline SeenPart front_on(const Interlocked& world, glm::dvec3 from, const glm::dvec3& direction) {
+    constexpr double step_m = 1e-7;
+    SeenPart first = world.first_on(from, direction);
+    while (first.part >= 0 && glm::dot(first.normal, direction) > 0.0) {
+        from = first.point + step_m * glm::normalize(direction);
+        first = world.first_on(from, direction);
+    }
+    return first;
+}
+
 class TorchTruth {
 public:
-    TorchTruth(const Interlocked& world, const scene::PlacedTorch& torch, const TestTable& table)
+    /// `cut`: nothing before it is on the way of a torch before it.
+    TorchTruth(const Interlocked& world, const scene::PlacedTorch& torch, const TestTable& table,
+               const std::optional<geometry::Plane>& cut = {})
         : world_(world), beam_(torch.beam),
-          prop_from_torch_(table.table_from_prop.inverse() * torch.table_from_torch) {}
+          prop_from_torch_(table.table_from_prop.inverse() * torch.table_from_torch), cut_(cut) {}
 
     /// By the way alone.
     [[nodiscard]] double fallen(double way_m) const {
@@ -66,7 +79,7 @@ public:
                0.0;
     }
     [[nodiscard]] bool is_free(const glm::dvec3& point) const {
-        const SeenPart first = world_.first_on(origin(), point - origin());
+        const SeenPart first = first_on(point - origin());
         return first.part < 0 || way(first.point) > way(point) * (1.0 - 1e-9) - 1e-9;
     }
 
@@ -86,7 +99,7 @@ public:
             const double r = radius * pixel * static_cast<double>(k / 16 + 1) / 3.0;
             const glm::dvec3 to = prop_from_torch_.direction(
                 {q.x / q.z + r * std::cos(angle), q.y / q.z + r * std::sin(angle), 1.0});
-            const SeenPart hit = world_.first_on(origin(), to);
+            const SeenPart hit = first_on(to);
             const double depth =
                 hit.part < 0 ? 1e9 : prop_from_torch_.inverse().point(hit.point).z; // before the torch
             const double surface =
@@ -98,11 +111,20 @@ public:
     }
 
 private:
+    [[nodiscard]] SeenPart first_on(const glm::dvec3& to) const {
+        const double before = cut_ ? cut_->distance(origin()) : 0.0;
+        if (!(before > 0.0)) {
+            return world_.first_on(origin(), to);
+        }
+        const double down = -glm::dot(cut_->normal, to);
+        return down > 0.0 ? front_on(world_, origin() + before / down * to, to) : SeenPart{};
+    }
     [[nodiscard]] const glm::dvec3& origin() const { return prop_from_torch_.translation; }
 
     const Interlocked& world_;
     torch::Beam beam_;
     geometry::RigidTransform prop_from_torch_;
+    std::optional<geometry::Plane> cut_;
 };
 
 /// IEC 61966-2-1, linear light of 0..1 and codes of 0..255.

@@ -19,6 +19,8 @@ struct LitWindow {
     int samples = 1;
     std::size_t torches = 1;
     int poses = 12;
+    double share =
+        1.0; ///< of the world's ball behind the window; below 1 the window cuts off what reaches out of it
 };
 
 /// The torches that light the prop, as they light the window's world.
@@ -36,6 +38,7 @@ void check_light(const LitWindow& lit) {
     WindowRig rig(lit.objects, lit.chosen, lit.samples, {}, 1, true);
     for (scene::Part& part : rig.world.parts) {
         part.level.light = glm::vec3(base_light);
+        part.level.beyond = lit.share < 1.0;
     }
     std::mt19937 random(49);
     Counts counts;
@@ -45,7 +48,8 @@ void check_light(const LitWindow& lit) {
         rig.pin({.middle_m = {pose % 2 == 0 ? 0.15 : -0.15, 0.02},
                  .yaw_rad = 0.4 * pose,
                  .width_m = 0.1,
-                 .depth_m = 0.09});
+                 .depth_m = 0.09},
+                lit.share);
         const TestTable pinned_at = rig.table;
         std::vector<scene::PlacedTorch> torches;
         for (std::size_t k = 0; k < lit.torches; ++k) {
@@ -69,13 +73,15 @@ void check_light(const LitWindow& lit) {
                 return SeenPart{}; // also where the window ends before the prop
             }
             const PropRay ray = truth.ray(place.window, place.point);
-            return rig.world.first_on(ray.from, ray.direction);
+            return lit.share < 1.0 ? front_on(rig.world, ray.from + ray.direction, ray.direction)
+                                   : rig.world.first_on(ray.from, ray.direction);
         };
         const bool all_meshes = std::ranges::count(lit.chosen, Way::Mesh) == std::ssize(lit.chosen);
         Tolerance tolerance = all_meshes && lit.samples == 1 ? of_mesh : of_relief;
         tolerance.place_m /= rig.pinned.front().view.scale; // the window's world is smaller than the prop's
         Compared(rig.world, pinned_at, torches, tolerance,
-                 truth.ray(0, glm::dvec3(rig.pinned.front().view.table_from_window.translation)).from, seen)
+                 truth.ray(0, glm::dvec3(rig.pinned.front().view.table_from_window.translation)).from, seen,
+                 lit.share < 1.0 ? std::optional(rig.pinned.front().plane()) : std::nullopt)
             .count(without, with, counts);
     }
     std::printf(
@@ -118,6 +124,20 @@ TEST(WindowLight, LightsSeveralSamplesAPixel) {
                  .objects = ball_and_post(),
                  .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
                  .samples = 4});
+}
+
+/// As the part of a site: it goes on before the window, where it is cut off and casts no shadows.
+TEST(WindowLight, LightsAWorldThatReachesOutOfItsWindowAsRaysSay) {
+    check_light({.name = "beyond", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}, .share = 0.6});
+    check_light({.name = "beyond_cells",
+                 .objects = ball_and_post(),
+                 .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
+                 .share = 0.5});
+    check_light({.name = "beyond_samples",
+                 .objects = ball_and_post(),
+                 .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
+                 .samples = 4,
+                 .share = 0.6});
 }
 
 /// A world of the prop and two windows, each lit or not.

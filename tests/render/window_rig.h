@@ -22,17 +22,31 @@ struct Pinned {
     scene::PinnedView view;
     std::vector<scene::Part> parts;
 
-    Pinned(const TestTable& table, std::span<const scene::Part> world, const scene::WindowPlace& place)
+    /// `share`: of the world's ball that lies behind the window; below 1 the rest reaches out of it.
+    Pinned(const TestTable& table, std::span<const scene::Part> world, const scene::WindowPlace& place,
+           double share = 1.0)
         : view(scene::pin_view({.table_from_prop = table.table_from_prop,
                                 .prop_middle = table.prop.middle,
                                 .eye_m = table.eye_m,
-                                .world = scene::ball_around(world).value(),
+                                .world = share_of(scene::ball_around(world).value(), share),
                                 .place = place})
                    .value()) {
         scene::move_behind(view.window_from_prop, world, parts);
     }
     [[nodiscard]] scene::PlacedWindow placed() const {
         return {.surface = &view.surface, .table_from_window = view.table_from_window, .parts = parts};
+    }
+    /// Of the window, in the frame of the prop whose world it shows.
+    [[nodiscard]] geometry::Plane plane() const {
+        const glm::dmat3 turn(view.window_from_prop / view.scale);
+        return {.normal = glm::transpose(turn) * glm::dvec3(0.0, 0.0, 1.0),
+                .offset = -view.window_from_prop[3].z / view.scale};
+    }
+
+private:
+    static scene::WorldBall share_of(scene::WorldBall ball, double share) {
+        ball.radius *= share;
+        return ball;
     }
 };
 [[nodiscard]] inline std::vector<scene::PlacedWindow> placed(std::span<const Pinned> pinned) {
@@ -189,7 +203,9 @@ struct WindowRig {
         }
         scene::make_window_space(world.plan, room, 2 * indices, 2 * world.parts.size(), torches);
     }
-    void pin(const scene::WindowPlace& place) { pinned.emplace_back(table, world.parts, place); }
+    void pin(const scene::WindowPlace& place, double share = 1.0) {
+        pinned.emplace_back(table, world.parts, place, share);
+    }
     /// As many as fit beside each other, some of them partly behind the prop or out of the picture.
     void pin_some(std::mt19937& random, std::size_t count) {
         std::uniform_real_distribution<double> u(-1.0, 1.0);

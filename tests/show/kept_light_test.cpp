@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -67,19 +68,67 @@ TEST(KeptLight, LeavesOutWhatDoesNotMeetTheWorldAndWhatIsOff) {
     EXPECT_EQ(light.house_light(), 1.0) << "without a house's light given";
 }
 
-TEST(KeptLight, LosesTexturesWithTheirArtifact) {
+TEST(KeptLight, LosesTexturesWithTheirArtifactByAFade) {
     std::array torches{torch_at({0.0, 0.0, 0.5}, downwards), torch_at({0.0, 0.0, 0.5}, downwards),
                        torch_at({0.0, 0.0, 0.5}, downwards)};
     torches[0].picture = scene::TextureId{7};
     torches[1].stages[0].source = torch::Source::Layer;
+    const scene::PinnedView view{.surface = {}, .table_from_window = {}};
+    MonotonicTime now;
+    constexpr auto frame = std::chrono::milliseconds(20);
     WindowLight light;
-    light.keep({.torches = torches, .table_from_prop = {}});
-    EXPECT_TRUE(light.leave_out_textures());
+    light.keep({.torches = torches, .table_from_prop = {}, .house_light = 0.4});
+    EXPECT_FALSE(light.fade_textures(now, true));
+    EXPECT_FALSE(light.fades());
+    EXPECT_TRUE(light.shows_textures());
+    double before = 1.0;
+    int frames = 0;
+    for (bool left_out = false; !left_out; ++frames) {
+        ASSERT_LT(frames, 30) << "half a second";
+        left_out = light.fade_textures(now += frame, false);
+        const auto behind = light.behind(view, {});
+        ASSERT_EQ(behind.size(), left_out ? 1U : 3U);
+        EXPECT_EQ(behind.back().brightness, 1.0F) << "plain light stays";
+        const double share = left_out ? 0.0 : double{behind.front().brightness};
+        EXPECT_LT(share, before);
+        EXPECT_LT(before - share, 0.05) << "a flash";
+        before = share;
+    }
+    EXPECT_GE(frames, 24);
+    EXPECT_FALSE(light.shows_textures());
     EXPECT_TRUE(light.is_lit());
-    EXPECT_FALSE(light.leave_out_textures()) << "nothing is left to leave out";
+    EXPECT_FALSE(light.fade_textures(now += frame, false)) << "nothing is left to leave out";
+    EXPECT_EQ(light.house_light(), 0.4) << "plain light is left";
     light.put_out();
     EXPECT_FALSE(light.is_lit());
     EXPECT_EQ(light.house_light(), 1.0);
+}
+
+TEST(KeptLight, ComesBackWithTheArtifactAndBringsTheHousesLightBackByAFade) {
+    std::array torches{torch_at({0.0, 0.0, 0.5}, downwards)};
+    torches[0].picture = scene::TextureId{7};
+    MonotonicTime now;
+    constexpr auto frame = std::chrono::milliseconds(20);
+    WindowLight light;
+    light.keep({.torches = torches, .table_from_prop = {}, .house_light = 0.4});
+    static_cast<void>(light.fade_textures(now, true));
+    double house = light.house_light();
+    EXPECT_EQ(house, 0.4);
+    const auto goes_to = [&](bool is_on_show, int frames) {
+        for (int k = 0; k < frames; ++k) {
+            static_cast<void>(light.fade_textures(now += frame, is_on_show));
+            EXPECT_LT(std::fabs(light.house_light() - house), 0.03) << "a flash";
+            house = light.house_light();
+        }
+    };
+    goes_to(false, 12);
+    EXPECT_GT(house, 0.6);
+    goes_to(true, 20);
+    EXPECT_EQ(house, 0.4) << "the artifact is back";
+    EXPECT_FALSE(light.fades());
+    goes_to(false, 30);
+    EXPECT_EQ(house, 1.0);
+    EXPECT_FALSE(light.is_lit());
 }
 
 } // namespace
