@@ -200,7 +200,7 @@ TEST_F(SiteWindows, ARegionFadesFromLevelToLevelInAWindow) {
     draw(part, std::nullopt);
     pin(rectangle);
     draw(part, std::nullopt);
-    ASSERT_FALSE(fine_regions()[region]) << "the window begins with its stand-in";
+    ASSERT_FALSE(fine_regions()[region]) << "the window begins with its proxy";
     const scene::PinnedView view = pinned(rectangle, pinned_at);
     std::vector<image::Image8> pictures{picture()};
     for (int frame = 0; frame < 60; ++frame) {
