@@ -154,7 +154,7 @@ render::DrawResult ArtifactShow::draw(MonotonicTime now, const exhibit::Presenta
     }
     WindowShow* const windows = windows_ ? &*windows_ : nullptr;
     if (windows != nullptr) {
-        view.windows = windows->place(presentation, eyes_m, artifact_cache, view.torches);
+        view.windows = windows->place(now, presentation, eyes_m, artifact_cache, view.torches);
         windows->place_frames(presentation, caption_brightness_, on_table_);
         place_state_titles(presentation);
     }

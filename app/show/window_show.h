@@ -6,7 +6,8 @@
 /// States   a window of a state shows its cells or its layer. All windows of an artifact with states are as large as all of its
 ///          states together need, so that they compare. Until the layer has come, the window is dark.
 /// Time     the windows' time is part of the frame's, which the governor bounds by the level in the prop; frames that miss their
-///          deadline nevertheless draw windows with one sample a pixel (window_samples.h).
+///          deadline nevertheless draw windows with one sample a pixel (window_samples.h), and then a fade from geometry to
+///          patches or back takes `short_fade_s`.
 /// Live     the cells of a live window stand as those in the prop do, and torches light it as the prop, while the artifact is on show.
 /// Torches  another window keeps the light that lay on the artifact when it was pinned; a state has none (window_light.h).
 /// Slant    a window is seen from within 60 degrees of its normal; beyond `full_deg` it fades, and is dark at the limit. Its
@@ -41,6 +42,7 @@ class WindowShow {
 public:
     static constexpr double full_deg = 56.0,
                             limit_deg = 60.0; ///< of the eye's direction from the window's normal
+    static constexpr double short_fade_s = 0.2;
     static constexpr double min_frame_m = 0.0015, max_frame_m = 0.005; ///< width of its lines
     static constexpr double frame_px = 1.3;          ///< or as many of the projector's pixels
     static constexpr double frame_brightness = 0.35; ///< of the texts' light
@@ -61,10 +63,9 @@ public:
     void place_frames(const exhibit::Presentation& presentation, double brightness,
                       residency::OnTable& on_table) const;
     /// Freezes new windows, and returns the windows that are seen; valid until the next call. `torches`: that light the prop.
-    [[nodiscard]] std::span<const scene::PlacedWindow> place(const exhibit::Presentation& presentation,
-                                                             std::span<const glm::dvec3> eyes_m,
-                                                             const residency::ArtifactCache& cache,
-                                                             std::span<const scene::PlacedTorch> torches);
+    [[nodiscard]] std::span<const scene::PlacedWindow>
+    place(MonotonicTime now, const exhibit::Presentation& presentation, std::span<const glm::dvec3> eyes_m,
+          const residency::ArtifactCache& cache, std::span<const scene::PlacedTorch> torches);
     /// A frame took `ms` until it was complete.
     void record_time(MonotonicTime now, double ms) { samples_.record(now, ms, shows_); }
     /// The level in a window at a place, to draw one frame with.
@@ -108,7 +109,8 @@ private:
                        Held& held);
     [[nodiscard]] const scene::WindowPatches* patches_for(std::uint32_t number,
                                                           const geometry::RigidTransform& table_from_window,
-                                                          std::span<const glm::dvec3> eyes_m);
+                                                          std::span<const glm::dvec3> eyes_m,
+                                                          MonotonicTime now);
     /// The region of a site that is marked, as the prop will show it. False: none is, or it is not seen.
     [[nodiscard]] bool place_preview(const exhibit::Presentation& presentation,
                                      std::span<const glm::dvec3> eyes_m,

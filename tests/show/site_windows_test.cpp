@@ -104,7 +104,8 @@ protected:
         const bool shows_cells = cells().step(now_, 1.0);
         presentation_.table_from_prop = table_.table_from_prop;
         scene::PlanView seen = table_.view();
-        seen.windows = windows_->place(presentation_, std::span(&table_.eye_m, 1), *cache_, {});
+        seen.windows =
+            windows_->place(MonotonicTime{}, presentation_, std::span(&table_.eye_m, 1), *cache_, {});
         const render::RenderTarget target{display_->framebuffer(), 0};
         residency::RunLevels& levels = *cache_->find(0);
         const show::LentSpace lent(windows_.get(), shows_cells ? cells().plans() : levels.plans());
