@@ -8,8 +8,8 @@ namespace frustumscreen::ldi {
 
 namespace {
 
-/// An eye so far beyond a border, in cells, still belongs to the cell; rounding may leave it there.
-constexpr double beyond_border = 1e-6;
+/// An eye so far beyond a border, in cells and as a multiple of its distance, still belongs to the cell.
+constexpr double cells_beyond = 1.0, times_beyond = 1.2;
 
 } // namespace
 
@@ -20,7 +20,7 @@ EyeCells::EyeCells(const Hemisphere& hemisphere, std::size_t patch)
 CellMask EyeCells::cell_of(const glm::dvec3& eye) const {
     const double length = glm::length(eye);
     const double share = length / radius_m_;
-    if (!(share >= min_eye_share && share <= max_eye_share)) {
+    if (!(share >= min_eye_share / times_beyond && share <= max_eye_share * times_beyond)) {
         return all_cells;
     }
     const double polar = std::acos(std::clamp(eye.z / length, -1.0, 1.0));
@@ -29,8 +29,8 @@ CellMask EyeCells::cell_of(const glm::dvec3& eye) const {
     const double row =
         rows_ * (polar - directions_.min_polar_rad) / (directions_.max_polar_rad - directions_.min_polar_rad);
     const double column = columns_ * (0.5 + 0.5 * azimuth / directions_.half_width_rad);
-    if (!(row >= -beyond_border && row <= rows_ + beyond_border && column >= -beyond_border &&
-          column <= columns_ + beyond_border)) {
+    if (!(row >= -cells_beyond && row <= rows_ + cells_beyond && column >= -cells_beyond &&
+          column <= columns_ + cells_beyond)) {
         return all_cells;
     }
     const auto in = [](double place, int count) { return std::clamp(static_cast<int>(place), 0, count - 1); };

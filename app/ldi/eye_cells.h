@@ -6,7 +6,7 @@
 /// Cells    four steps of polar angles by four of azimuths; in the centre two by eight. A cell reaches from `min_eye_share` to
 ///          `max_eye_share` of the hemisphere's radius.
 /// Threads  values; any.
-/// Errors   none: an eye outside of the cells is in all of them.
+/// Errors   none: an eye a little outside of the cells is in the nearest one, any other one in all of them.
 #pragma once
 
 #include "app/ldi/hemisphere.h"

@@ -36,14 +36,16 @@ bool may_share_pixels(const scene::Draw& surface, const scene::Draw& raster,
     return surface.face == raster.face && !apart;
 }
 
-/// The pixels that a draw in the prop may light. For a relief, its view bounds them more closely than the draw.
+/// The pixels that a draw in the prop may light. For a relief, its view bounds them more closely than the draw. None for points: they
+/// meet nothing by depth.
 PixelRectangle pixels_of(const scene::FramePlan& plan, const scene::Draw& draw) {
     if (draw.shader.pass == scene::ShaderKey::Pass::Surface && !draw.shader.blocks) {
         return draw.bounds;
     }
     const int face = plan.faces[static_cast<std::size_t>(draw.face)].face;
-    for (const relief::RasterFace& seen : plan.relief_draws[draw.relief_draw].view.faces) {
-        if (seen.face == face) {
+    const scene::ReliefDraw& drawn = plan.relief_draws[draw.relief_draw];
+    for (const relief::RasterFace& seen : drawn.view.faces) {
+        if (seen.face == face && drawn.points == nullptr) {
             return seen.lit;
         }
     }
@@ -120,7 +122,7 @@ void RasterPass::list_reliefs(const scene::FramePlan& plan, const GpuStore& stor
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
         const scene::ReliefDraw& planned = plan.relief_draws[k];
         const relief::BlockRelief* const relief =
-            planned.on_gpu ? nullptr : store.find_relief(planned.relief);
+            planned.on_gpu || planned.points != nullptr ? nullptr : store.find_relief(planned.relief);
         if (relief != nullptr) {
             seen_.push_back({.relief = relief,
                              .view = &planned.view,
@@ -185,19 +187,24 @@ void RasterPass::add_painted(const scene::FramePlan& plan, const PixelRectangle&
     add(deep.x + deep.width, right);
 }
 
-bool RasterPass::paint_points(const scene::FramePlan& plan) {
-    if (plan.relief_draw_count == 0 || plan.relief_draws.front().points == nullptr) {
-        return false;
-    }
+PixelRectangle RasterPass::paint_points(const scene::ReliefDraw& points) {
     if (!points_) {
         points_ = std::make_unique<PointPainter>();
     }
-    const PixelRectangle painted = points_->paint(plan.relief_draws.front(),
-                                                  {.first = memory_.texels.data(),
-                                                   .width = memory_.width,
-                                                   .height = memory_.height,
-                                                   .stride = memory_.width},
-                                                  light_);
+    return points_->paint(points,
+                          {.first = memory_.texels.data(),
+                           .width = memory_.width,
+                           .height = memory_.height,
+                           .stride = memory_.width},
+                          light_);
+}
+
+bool RasterPass::paint_points_alone(const scene::FramePlan& plan) {
+    if (plan.relief_draw_count == 0 || plan.relief_draws.front().points == nullptr ||
+        plan.relief_draws.front().dither) {
+        return false;
+    }
+    const PixelRectangle painted = paint_points(plan.relief_draws.front());
     if (!painted.empty()) {
         drawn_.push_back(painted);
         glActiveTexture(GL_TEXTURE0);
@@ -217,7 +224,7 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
         return;
     }
     light_.begin(plan);
-    if (paint_points(plan)) {
+    if (paint_points_alone(plan)) {
         return;
     }
     list_reliefs(plan, store, facing);
@@ -231,7 +238,8 @@ void RasterPass::paint(const scene::FramePlan& plan, const GpuStore& store, Dept
                            [](const relief::SeenRelief& seen) { return seen.layer != nullptr; });
     int samples = 1;
     for (std::size_t k = 0; k < plan.relief_draw_count; ++k) {
-        samples = plan.relief_draws[k].on_gpu ? samples : std::max(samples, plan.relief_draws[k].samples);
+        const scene::ReliefDraw& drawn = plan.relief_draws[k];
+        samples = drawn.on_gpu || drawn.points != nullptr ? samples : std::max(samples, drawn.samples);
     }
     const relief::DepthPicture depth{.parts = meeting_,
                                      .nearness = {.first = nearness_.texels.data(),
@@ -331,6 +339,40 @@ int RasterPass::show(const scene::FramePlan& plan, const ShaderCache& shaders) c
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, colour_texels_.get());
     shader->draw_rectangles({plan.projector.width, plan.projector.height}, drawn_);
+    glBindVertexArray(0);
+    return 1;
+}
+
+int RasterPass::blend_points(const scene::FramePlan& plan, const ShaderCache& shaders) {
+    const auto drawn = std::span(plan.relief_draws).first(plan.relief_draw_count);
+    const auto points = std::find_if(drawn.begin(), drawn.end(), [](const scene::ReliefDraw& each) {
+        return each.points != nullptr && each.dither;
+    });
+    const Shader* const shader = shaders.find(scene::raster_shader());
+    if (points == drawn.end() || shader == nullptr || !painter_) {
+        return 0;
+    }
+    const PixelRectangle whole = scene::bounds_in_prop(plan);
+    for (int y = whole.y; y < whole.y + whole.height; ++y) {
+        std::fill_n(&memory_.at(whole.x, y), whole.width, glm::u8vec4(0, 0, 0, 255));
+    }
+    const PixelRectangle painted = intersected(paint_points(*points), whole);
+    for (int y = painted.y; y < painted.y + painted.height;
+         ++y) { // where there is no point, what is drawn there fades out
+        for (int x = painted.x; x < painted.x + painted.width; ++x) {
+            memory_.at(x, y).a = 255;
+        }
+    }
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, colour_texels_.get());
+    upload(colours(), std::span(&whole, 1), plan.picture.viewport);
+    shader->use();
+    glBindVertexArray(no_attributes_.get());
+    glEnable(GL_BLEND);
+    glBlendColor(0.0F, 0.0F, 0.0F, points->dither->share);
+    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    shader->draw_rectangles({plan.projector.width, plan.projector.height}, std::span(&whole, 1));
+    glDisable(GL_BLEND);
     glBindVertexArray(0);
     return 1;
 }

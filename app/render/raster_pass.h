@@ -50,6 +50,10 @@ public:
     /// Shows the other parts in the bound framebuffer, whose colour must be a texture; returns the number of draw calls.
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
+    /// After `show`: blends points that take only a share of each pixel's light over what is drawn in the plan's face; returns the
+    /// number of draw calls.
+    int blend_points(const scene::FramePlan& plan, const ShaderCache& shaders);
+
     /// After `paint`: which parts of what `show` shows the plan's torches light. Uploads what their light takes on the GPU.
     void find_lit_parts(const scene::FramePlan& plan);
     /// Since then: `light_here` is to be called for each torch, in order, in place of `light`.
@@ -85,8 +89,10 @@ private:
     [[nodiscard]] Upload depths() const;
     [[nodiscard]] Upload layers_of_torches() const;
 
-    /// Paints the plan's points; false: it has none.
-    [[nodiscard]] bool paint_points(const scene::FramePlan& plan);
+    /// Paints points into memory, and returns where.
+    [[nodiscard]] PixelRectangle paint_points(const scene::ReliefDraw& points);
+    /// Paints the plan's points; false: it has none, or they are blended over the rest.
+    [[nodiscard]] bool paint_points_alone(const scene::FramePlan& plan);
     void list_reliefs(const scene::FramePlan& plan, const GpuStore& store, relief::Facing facing);
     void find_meeting(const scene::FramePlan& plan);
     void find_lit(const scene::FramePlan& plan, const GpuStore& store);

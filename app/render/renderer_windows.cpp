@@ -116,7 +116,7 @@ int Renderer::draw_window(const scene::FramePlan& window, const scene::FramePlan
     calls += draw_surfaces(window, plan, torches, target, direct);
     set_channels(plan.picture.channels);
     const InWindow in_window;
-    calls += raster_pass_.show(window, shaders_);
+    calls += raster_pass_.show(window, shaders_) + raster_pass_.blend_points(window, shaders_);
     if (!torches.empty()) {
         calls += raster_pass_.light({window, store_, shaders_, direct, torches});
     }

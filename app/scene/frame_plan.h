@@ -86,7 +86,7 @@ using relief::Dither;
 /// A level to draw in the prop.
 struct Part {
     PlacedLevel level;
-    std::optional<Dither> dither; ///< nullopt: every pixel
+    std::optional<Dither> dither; ///< nullopt: every pixel. Of points: their share of each pixel's light
 };
 /// A fade from one level to another. `share`: of the pixels that show `to`, 0..1.
 [[nodiscard]] std::array<Part, 2> fade(const PlacedLevel& from, const PlacedLevel& to, double share);

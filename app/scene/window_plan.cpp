@@ -82,14 +82,31 @@ PlanView through(const PlacedWindow& window, const PlanView& view) {
     return seen;
 }
 
-/// Null: the window's parts are drawn. A lens that bends straight lines would bend the points' places too, so their parts are drawn
-/// there.
-const ldi::PointPatch* points_of(const PlacedWindow& window, const PlanView& view) {
+/// No points: the window's parts are drawn. A lens that bends straight lines would bend the points' places too, so their parts are
+/// drawn there.
+ShownPoints points_of(const PlacedWindow& window, const PlanView& view) {
     if (window.patches == nullptr || !window.torches.empty() || view.eyes_m.empty() ||
         if_it_bends(view.projector)) {
-        return nullptr;
+        return {};
     }
-    return points_for(*window.patches, window.table_from_window.inverse().point(view.eyes_m.front()));
+    return shown_to(*window.patches, window.table_from_window.inverse().point(view.eyes_m.front()));
+}
+
+void plan_points(const PlacedWindow& window, const ShownPoints& shown, const PlanView& view,
+                 FramePlan& plan) {
+    const Part part = part_of(*window.patches, {.points = shown.points});
+    plan_frame(*window.surface, std::span(&part, 1), view, plan);
+}
+
+/// The points have the samples that they have alone, because those of the part may depend on its scale.
+void plan_fade(const PlacedWindow& window, const ShownPoints& shown, const PlanView& view, FramePlan& plan) {
+    plan_points(window, shown, view, plan);
+    const int samples = plan.relief_draw_count > 0 ? plan.relief_draws.front().samples : 1;
+    const std::array both{window.parts.front(), part_of(*window.patches, shown)};
+    plan_frame(*window.surface, both, view, plan);
+    for (ReliefDraw& drawn : plan.relief_draws) {
+        drawn.samples = drawn.points != nullptr ? samples : drawn.samples;
+    }
 }
 
 void plan_window(const PlacedWindow& window, const PlanView& view, const Cover& cover, FramePlan& plan) {
@@ -102,10 +119,12 @@ void plan_window(const PlacedWindow& window, const PlanView& view, const Cover& 
         plan.cover_clip.assign(cover.clip.begin(),
                                cover.clip.begin() + static_cast<std::ptrdiff_t>(cover.count));
     }
-    const ldi::PointPatch* const points = points_of(window, seen);
-    if (points != nullptr) {
-        const Part part = part_of(*window.patches, *points);
-        plan_frame(*window.surface, std::span(&part, 1), seen, plan);
+    const ShownPoints shown = points_of(window, seen);
+    const bool fades = shown.share > 0.0F && shown.share < 1.0F && window.parts.size() == 1;
+    if (shown.points != nullptr && fades) {
+        plan_fade(window, shown, seen, plan);
+    } else if (shown.points != nullptr && shown.share >= 0.5F) {
+        plan_points(window, shown, seen, plan);
     } else {
         plan_frame(*window.surface, window.parts, seen, plan);
     }

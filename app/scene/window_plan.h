@@ -1,6 +1,7 @@
 /// Plans pinned windows in a picture. Each is planned as a prop of one face (`plan_frame`), into a plan of its own, so the prop's
 /// samples, tiles and light stay as they are.
 ///
+/// Fade     a window of one part fades from it to points; several parts are drawn up to half of the fade.
 /// Cover    the prop is nearer to the projector than the table is. Where its outline in the picture, a pixel wider, meets a
 ///          window, the window is not drawn.
 /// Frames   as frame_plan.h.

@@ -130,8 +130,11 @@ void FrozenWindows::freeze(const FrozenWindow& window) {
 
 void FrozenWindows::begin(std::uint32_t number, PatchJobSetUp set_up) {
     set_up.number = ++last_number_;
-    windows_.push_back(
-        {.number = number, .job = nullptr, .set_up = std::move(set_up), .patch = std::nullopt});
+    windows_.push_back({.number = number,
+                        .job = nullptr,
+                        .set_up = std::move(set_up),
+                        .patch = std::nullopt,
+                        .faded_to = std::nullopt});
     give_job(windows_.back());
 }
 
@@ -145,7 +148,22 @@ void FrozenWindows::give_job(Window& window) {
     }
 }
 
-const scene::WindowPatches* FrozenWindows::look(std::uint32_t number, std::span<const glm::dvec3> eyes) {
+void FrozenWindows::fade(Window& window, std::span<const glm::dvec3> eyes, MonotonicTime now,
+                         double fade_s) const {
+    const double passed_s = window.faded_to ? to_seconds(now - *window.faded_to) : 0.0;
+    window.faded_to = now;
+    std::array<scene::WindowPatches::OfEye, 2> seen{};
+    const std::size_t count = std::min(eyes.size(), seen.size());
+    for (std::size_t k = 0; k < count; ++k) {
+        const ldi::PointPatch* const ready = scene::points_for(window.job->patches(), eyes[k]);
+        window.fades[k].step(ready, waits_ ? 1.0 : passed_s / fade_s);
+        seen[k] = {.eye = eyes[k], .shown = window.fades[k].shown()};
+    }
+    window.job->show(std::span(seen).first(count));
+}
+
+const scene::WindowPatches* FrozenWindows::look(std::uint32_t number, std::span<const glm::dvec3> eyes,
+                                                MonotonicTime now, double fade_s) {
     const auto found = std::find_if(windows_.begin(), windows_.end(),
                                     [number](const Window& window) { return window.number == number; });
     if (found == windows_.end() || found->job == nullptr) {
@@ -164,6 +182,7 @@ const scene::WindowPatches* FrozenWindows::look(std::uint32_t number, std::span<
         }
     }
     job.update();
+    fade(*found, eyes, now, fade_s);
     return &job.patches();
 }
 

@@ -3,6 +3,8 @@
 /// Choice   a window is drawn by its patches if that takes at most half the time of its parts, by the costs that the governor measured; by
 ///          its parts until the eye's patch is ready, and for eyes beyond the patches (scene/window_patches.h). Parts of a world of
 ///          cells, and those in coloured light, are drawn as they are.
+/// Fade     from its parts to points and back, an eye's picture changes evenly over `fade_s`, counted by the times of its frames. With
+///          `waits` it changes at once.
 /// Frames   table T; window: as scene::PinnedView.
 /// Threads  the thread that draws; it never waits for the other one, but with `waits` it makes all patches itself. Without `waits` it
 ///          allocates only in `make_space`: there are jobs for twice as many windows as may lie on the table. While all of them are
@@ -64,8 +66,11 @@ public:
     void forget(std::uint32_t number);
     /// Begins with this world; `freeze` without the choice.
     void begin(std::uint32_t number, PatchJobSetUp set_up);
-    /// The patches that are ready for a window, which these eyes look at, window's frame; null: it has none.
-    [[nodiscard]] const scene::WindowPatches* look(std::uint32_t number, std::span<const glm::dvec3> eyes);
+    /// The patches that are ready for a window, which these eyes look at, window's frame; null: it has none. `fade_s`: time of a fade
+    /// from its parts to points or back.
+    [[nodiscard]] const scene::WindowPatches* look(std::uint32_t number, std::span<const glm::dvec3> eyes,
+                                                   MonotonicTime now,
+                                                   double fade_s = scene::PointFade::fade_s);
     /// Once a frame, after all `look`: forgets windows that are not among these, and gives the thread its work.
     void step(std::span<const exhibit::PresentedWindow> windows);
 
@@ -75,10 +80,14 @@ public:
 private:
     struct Window {
         std::uint32_t number = 0;
-        PatchJob* job = nullptr;          ///< null: it waits for one
-        PatchJobSetUp set_up;             ///< of the job that it waits for
-        std::optional<std::size_t> patch; ///< that was looked at last
+        PatchJob* job = nullptr;                 ///< null: it waits for one
+        PatchJobSetUp set_up;                    ///< of the job that it waits for
+        std::optional<std::size_t> patch;        ///< that was looked at last
+        std::array<scene::PointFade, 2> fades{}; ///< of its eyes
+        std::optional<MonotonicTime> faded_to;
     };
+    /// Sets what the eyes see. A window that waits is not faded.
+    void fade(Window& window, std::span<const glm::dvec3> eyes, MonotonicTime now, double fade_s) const;
     /// Gives the window a job, if one is free.
     void give_job(Window& window);
     /// Forgets the windows for which `is_gone` is true.

@@ -1,5 +1,6 @@
 #include "app/show/patch_job.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace frustumscreen::show {
@@ -27,6 +28,11 @@ void PatchJob::update() {
             patches_.patches[k] = made_[k].get();
         }
     }
+}
+
+void PatchJob::show(std::span<const scene::WindowPatches::OfEye> eyes) {
+    patches_.eye_count = std::min(eyes.size(), patches_.eyes.size());
+    std::copy_n(eyes.begin(), patches_.eye_count, patches_.eyes.begin());
 }
 
 bool PatchJob::has_first() const {

@@ -21,6 +21,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace frustumscreen::show {
 
@@ -55,6 +56,8 @@ public:
     void look_from(const glm::dvec3& eye);
     /// Takes over what was made since the last call.
     void update();
+    /// What these eyes are shown; at most two.
+    void show(std::span<const scene::WindowPatches::OfEye> eyes);
     [[nodiscard]] const scene::WindowPatches& patches() const { return patches_; }
     /// All that can be made is made. True on either thread.
     [[nodiscard]] bool is_done() const { return state_.load(std::memory_order_acquire) == State::Done; }

@@ -59,7 +59,8 @@ std::uint64_t WindowShow::planned_gpu_bytes() const {
 
 void WindowShow::make_space(const residency::ArtifactCache& cache) {
     std::vector<const residency::KnownArtifact*> artifacts;
-    std::size_t indices = 0, parts = 1, regions = 0;
+    std::size_t indices = 0, regions = 0;
+    std::size_t parts = 2; // one, and points that fade over it
     for (std::size_t artifact = 0; artifact < cache.size(); ++artifact) {
         const residency::KnownArtifact& known = cache.known(artifact);
         artifacts.push_back(&known);

@@ -6,7 +6,8 @@
 /// States   a window of a state shows its cells or its layer. All windows of an artifact with states are as large as all of its
 ///          states together need, so that they compare. Until the layer has come, the window is dark.
 /// Time     the windows' time is part of the frame's, which the governor bounds by the level in the prop; frames that miss their
-///          deadline nevertheless draw windows with one sample a pixel (window_samples.h).
+///          deadline nevertheless draw windows with one sample a pixel (window_samples.h), and then a fade from geometry to
+///          patches or back takes `short_fade_s`.
 /// Live     the cells of a live window stand as those in the prop do, and torches light it as the prop, while the artifact is on show;
 ///          a part of a site while it stands in the prop.
 /// Torches  another window, also of a state, keeps the light that lay on the artifact when it was pinned (window_light.h).
@@ -42,6 +43,7 @@ class WindowShow {
 public:
     static constexpr double full_deg = 56.0,
                             limit_deg = 60.0; ///< of the eye's direction from the window's normal
+    static constexpr double short_fade_s = 0.2;
     static constexpr double min_frame_m = 0.0015, max_frame_m = 0.005; ///< width of its lines
     static constexpr double frame_px = 1.3;          ///< or as many of the projector's pixels
     static constexpr double frame_brightness = 0.35; ///< of the texts' light
@@ -116,7 +118,8 @@ private:
                        Held& held);
     [[nodiscard]] const scene::WindowPatches* patches_for(std::uint32_t number,
                                                           const geometry::RigidTransform& table_from_window,
-                                                          std::span<const glm::dvec3> eyes_m);
+                                                          std::span<const glm::dvec3> eyes_m,
+                                                          MonotonicTime now);
     /// The region of a site that is marked, as the prop will show it. False: none is, or it is not seen.
     [[nodiscard]] bool place_preview(MonotonicTime now, const exhibit::Presentation& presentation,
                                      std::span<const glm::dvec3> eyes_m,

@@ -239,14 +239,15 @@ void WindowShow::begin_patches(const exhibit::PresentedWindow& window, const res
 
 const scene::WindowPatches* WindowShow::patches_for(std::uint32_t number,
                                                     const geometry::RigidTransform& table_from_window,
-                                                    std::span<const glm::dvec3> eyes_m) {
+                                                    std::span<const glm::dvec3> eyes_m, MonotonicTime now) {
     std::array<glm::dvec3, 2> eyes{};
     const std::size_t count = std::min(eyes.size(), eyes_m.size());
     const geometry::RigidTransform window_from_table = table_from_window.inverse();
     for (std::size_t k = 0; k < count; ++k) {
         eyes[k] = window_from_table.point(eyes_m[k]);
     }
-    return frozen_.look(number, std::span(eyes).first(count));
+    return frozen_.look(number, std::span(eyes).first(count), now,
+                        samples_.few() ? short_fade_s : scene::PointFade::fade_s);
 }
 
 void WindowShow::update(MonotonicTime now, const exhibit::PresentedWindow& window, bool is_on_show,
@@ -324,7 +325,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(MonotonicTime now,
                                .table_from_window = table_from_window,
                                .parts = held.moved,
                                .brightness = brightness,
-                               .patches = patches_for(window.number, table_from_window, eyes_m),
+                               .patches = patches_for(window.number, table_from_window, eyes_m, now),
                                .torches = held.light.behind(held.view, table_from_window)};
     }
     if (count < windows_.count) { // the plans have room for so many

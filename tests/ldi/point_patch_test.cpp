@@ -136,6 +136,8 @@ TEST_P(PointPatches, ThatNoEyeSeesAreLeftOut) {
     }
     EXPECT_GT(skipped, seen.seen.size()); // of 40 times as many
     EXPECT_LE(holes, pixels / 200);
+    const glm::dvec3 last = max_eye_share * seeded_eye(hemisphere, GetParam(), random);
+    EXPECT_EQ(seen.cells.cell_of(1.1 * last), seen.cells.cell_of((1.0 - 1e-9) * last)) << "a little outside";
     for (const glm::dvec3& beyond :
          {glm::dvec3(0.0, 0.0, 0.1), glm::dvec3(0.0, 0.0, 2.0), glm::dvec3(1.0, 0.0, 0.1)}) {
         EXPECT_EQ(seen.cells.cell_of(beyond), all_cells);

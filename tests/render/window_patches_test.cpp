@@ -2,8 +2,11 @@
 
 #include "app/ldi/point_maker.h"
 #include "app/scene/window_patches.h"
+#include "tests/render/counted_new.h"
+#include "tests/render/keep_picture.h"
 #include "tests/render/window_rig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -190,6 +193,117 @@ TEST(WindowPatches, HaveTheLightThatGeometryHas) {
     ASSERT_GT(count, 500U);
     std::printf("RMSE %.2f codes over %zu pixels\n", std::sqrt(sum / static_cast<double>(count)), count);
     EXPECT_LE(std::sqrt(sum / static_cast<double>(count)), 2.0);
+}
+
+/// Of the pixels that `switched` changes.
+struct Change {
+    double rmse = 0.0;
+    int most = 0; ///< of a channel, anywhere
+};
+Change change_of(const image::Image8& from, const image::Image8& to, const std::vector<bool>& switched) {
+    Change change;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < from.texels.size(); ++k) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const int off = static_cast<int>(to.texels[k][channel]) - from.texels[k][channel];
+            change.most = std::max(change.most, std::abs(off));
+            change.rmse += switched[k] ? static_cast<double>(off) * off : 0.0;
+            count += switched[k] ? 1U : 0U;
+        }
+    }
+    change.rmse = std::sqrt(change.rmse / static_cast<double>(std::max<std::size_t>(count, 1)));
+    return change;
+}
+
+/// A window whose eye stands at the edge of the patches, so that a hair's breadth changes what draws it.
+struct HandOver {
+    WindowRig rig;
+    std::vector<Patched> all;
+    std::vector<scene::PlacedWindow> windows;
+    scene::PointFade fade;
+    long allocations = 0; ///< of the last frame, planned and drawn
+
+    HandOver(Way way, int samples) : rig(as_one(ball_and_post()), std::array{Way::Mesh}, samples) {
+        constexpr scene::WindowPlace place{.middle_m = {0.14, 0.0}, .width_m = 0.075, .depth_m = 0.075};
+        rig.table.eye_m = {0.1, -0.2, 0.6};
+        rig.pin(place);
+        all = all_patched(rig, samples); // of the mesh
+        rig.pinned.clear();
+        rig.world.choose(std::array{way});
+        rig.pin(place);
+        windows = with_patches(rig, all);
+    }
+    /// The picture for an eye at this multiple of the distance at which the window was pinned, after so much of a fade.
+    image::Image8 frame(double distance, double share) {
+        scene::WindowPatches& patches = all.front().patches;
+        const geometry::RigidTransform& from_window = rig.pinned.front().view.table_from_window;
+        const glm::dvec3 eye =
+            distance * patches.hemisphere.radius_m() * glm::normalize(glm::dvec3(0.1, -0.3, 1.0));
+        rig.table.eye_m = from_window.point(eye);
+        fade.step(scene::points_for(patches, eye), share);
+        patches.eyes.front() = {.eye = eye, .shown = fade.shown()};
+        patches.eye_count = 1;
+        const scene::PlanView view = rig.view(windows, scene::LightCompensation{});
+        Interlocked& world = rig.world;
+        const long before = allocations_so_far();
+        scene::plan_frame(world.prop, world.parts, view, world.plan);
+        static_cast<void>(world.renderer->draw(world.plan,
+                                               {world.display->framebuffer(), world.display->buffer_age()},
+                                               render::Redraw::Everything));
+        allocations = allocations_so_far() - before;
+        return world.picture(view);
+    }
+};
+
+/// No frame shows more than a small part of the difference, there and back, or allocates.
+TEST(WindowPatches, FadeFromGeometryToPointsAndBack) {
+    constexpr double beside = 1e-6;
+    constexpr int frames = 30;
+    for (const Way way : {Way::Mesh, Way::RasterizedRelief, Way::DrawnRelief}) {
+        for (const int samples : {1, 4}) {
+            if (samples == 1 && way == Way::DrawnRelief) {
+                continue; // as a mesh, for the fade
+            }
+            HandOver window(way, samples);
+            const image::Image8 geometry = window.frame(ldi::max_eye_share + beside, 1.0);
+            ASSERT_EQ(drawn_by_points(window.rig.world.plan), 0U);
+            const image::Image8 points = window.frame(ldi::max_eye_share - beside, 1.0);
+            ASSERT_EQ(drawn_by_points(window.rig.world.plan), 1U);
+            const std::string name = std::to_string(static_cast<int>(way)) + '_' + std::to_string(samples);
+            keep_picture(geometry, "FADE_PICTURES", name + "_geometry");
+            keep_picture(points, "FADE_PICTURES", name + "_points");
+            std::vector<bool> switched(points.texels.size());
+            for (std::size_t k = 0; k < switched.size(); ++k) {
+                switched[k] = points.texels[k] != geometry.texels[k];
+            }
+            const Change at_once = change_of(geometry, points, switched);
+            ASSERT_GT(at_once.most, 100) << "an outline moves";
+            Change most;
+            image::Image8 before = points;
+            for (const double side : {beside, -beside}) {
+                for (int frame = 0; frame < frames; ++frame) {
+                    const image::Image8 next = window.frame(ldi::max_eye_share + side, 1.0 / frames);
+                    if (frame == frames / 2) {
+                        keep_picture(next, "FADE_PICTURES", name + (side > 0.0 ? "_back" : "_there"));
+                    }
+                    EXPECT_TRUE(frame == 0 || window.allocations == 0 || !allocations_are_counted)
+                        << window.allocations << " in frame " << frame;
+                    const Change change = change_of(before, next, switched);
+                    most = {std::max(most.rmse, change.rmse), std::max(most.most, change.most)};
+                    before = next;
+                }
+                const Change left = change_of(before, side > 0.0 ? geometry : points, switched);
+                EXPECT_LE(left.most, 255 / frames + 1) << "the fade is over";
+                before = side > 0.0 ? geometry : points;
+                window.frame(ldi::max_eye_share + side, 1.0);
+            }
+            std::printf(
+                "way %d, %d samples: RMSE %.2f, at most %d codes at once; %.2f, %d in a fade's frame\n",
+                static_cast<int>(way), samples, at_once.rmse, at_once.most, most.rmse, most.most);
+            EXPECT_LE(most.rmse, at_once.rmse / 15.0);
+            EXPECT_LE(most.most, 255 / frames + 2);
+        }
+    }
 }
 
 /// A plan of points and one of geometry are not equal, nor are two patches.

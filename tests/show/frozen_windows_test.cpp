@@ -41,11 +41,12 @@ exhibit::PresentedWindow presented(std::uint32_t number) {
 }
 
 constexpr glm::dvec3 above{0.0, 0.0, 0.5};
+constexpr MonotonicTime now{std::chrono::seconds(100)};
 
 /// Draws frames until the patch of the eye is there; false: it did not come.
 bool comes(FrozenWindows& windows, std::uint32_t number, const glm::dvec3& eye) {
     for (int frame = 0; frame < 6000; ++frame) {
-        const scene::WindowPatches* const patches = windows.look(number, {&eye, 1});
+        const scene::WindowPatches* const patches = windows.look(number, {&eye, 1}, now);
         const exhibit::PresentedWindow shown = presented(number);
         windows.step({&shown, 1});
         if (patches != nullptr && scene::points_for(*patches, eye) != nullptr) {
@@ -72,7 +73,7 @@ TEST(FrozenWindows, FramesGoOnWhileTheThreadHangs) {
         std::this_thread::sleep_for(milliseconds(1));
     }
     for (int frame = 0; frame < 1000; ++frame) { // the thread reads, and none of these waits for it
-        const scene::WindowPatches* const patches = windows.look(1, {&above, 1});
+        const scene::WindowPatches* const patches = windows.look(1, {&above, 1}, now);
         ASSERT_NE(patches, nullptr);
         EXPECT_EQ(scene::points_for(*patches, above), nullptr) << "the window is drawn by its parts";
         windows.step({&shown, 1});
@@ -90,24 +91,76 @@ TEST(FrozenWindows, ThePatchThatIsLookedAtComesWhereverTheEyeGoes) {
     }
     const glm::dvec3 low(0.49, 0.0, 0.05), far(0.0, 0.0, 1.2), near(0.0, 0.0, 0.2);
     for (const glm::dvec3& eye : {low, far, near}) {
-        EXPECT_EQ(scene::points_for(*windows.look(7, {&eye, 1}), eye), nullptr) << "beyond the patches";
+        EXPECT_EQ(scene::points_for(*windows.look(7, {&eye, 1}, now), eye), nullptr) << "beyond the patches";
     }
 }
 
 TEST(FrozenWindows, AWorldThatCannotBeReadHasNoPatches) {
     FrozenWindows windows({}, true);
     windows.begin(1, set_up([]() -> Result<FrozenWorld> { return bad_input("test.gone", "gone"); }));
-    EXPECT_EQ(scene::points_for(*windows.look(1, {&above, 1}), above), nullptr);
+    EXPECT_EQ(scene::points_for(*windows.look(1, {&above, 1}, now), above), nullptr);
 }
 
 TEST(FrozenWindows, ThatWaitHaveTheirPatchesInTheFirstFrameAndNoThread) {
     FrozenWindows windows({}, true);
     windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
-    const scene::WindowPatches& patches = *windows.look(1, {&above, 1});
+    const scene::WindowPatches& patches = *windows.look(1, {&above, 1}, now);
     for (const ldi::PointPatch* const patch : patches.patches) {
         ASSERT_NE(patch, nullptr);
     }
     EXPECT_FALSE(windows.has_thread());
+}
+
+/// The share of points that the eye is shown at a time.
+double share_at(FrozenWindows& windows, MonotonicTime time, const glm::dvec3& eye) {
+    const scene::ShownPoints shown = scene::shown_to(*windows.look(1, {&eye, 1}, time), eye);
+    return shown.points != nullptr ? static_cast<double>(shown.share) : 0.0;
+}
+
+TEST(FrozenWindows, FadeToTheirPatchesAndBackInHalfASecond) {
+    FrozenWindows windows({}, false);
+    windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
+    ASSERT_TRUE(comes(windows, 1, above));
+    MonotonicTime time = now;
+    double share = share_at(windows, time, above);
+    EXPECT_EQ(share, 0.0) << "no time has passed";
+    const glm::dvec3 far(0.0, 0.0, 0.76);
+    for (const glm::dvec3& eye : {above, far, above}) {
+        const double goal = eye == far ? 0.0 : 1.0;
+        for (int frame = 1; frame <= 24; ++frame) { // of a fiftieth of a second
+            time += milliseconds(20);
+            const double next = share_at(windows, time, eye);
+            EXPECT_NEAR(next - share, (goal - 0.5) * 0.08, 1e-5) << frame;
+            share = next;
+        }
+        time += milliseconds(100);
+        share = share_at(windows, time, eye);
+        EXPECT_EQ(share, goal);
+    }
+    // An eye that comes back meanwhile turns the fade around.
+    share_at(windows, time += milliseconds(100), far);
+    EXPECT_NEAR(share_at(windows, time += milliseconds(100), far), 0.6, 1e-5);
+    EXPECT_NEAR(share_at(windows, time += milliseconds(100), above), 0.8, 1e-5);
+}
+
+TEST(FrozenWindows, EachEyeHasItsOwnFade) {
+    FrozenWindows windows({}, false);
+    windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
+    ASSERT_TRUE(comes(windows, 1, above));
+    const std::array eyes{glm::dvec3(0.0, 0.0, 0.74),
+                          glm::dvec3(0.0, 0.0, 0.76)}; // the second is beyond the patches
+    const scene::WindowPatches& patches = *windows.look(1, eyes, now + milliseconds(250));
+    EXPECT_NEAR(scene::shown_to(patches, eyes[0]).share, 0.5F, 1e-5F);
+    EXPECT_NE(scene::shown_to(patches, eyes[0]).points, nullptr);
+    EXPECT_EQ(scene::shown_to(patches, eyes[1]).points, nullptr);
+}
+
+TEST(FrozenWindows, OfSimulatedTimeChangeAtOnce) {
+    FrozenWindows windows({}, true);
+    windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
+    EXPECT_EQ(share_at(windows, now, above), 1.0);
+    EXPECT_EQ(share_at(windows, now, {0.0, 0.0, 0.76}), 0.0);
+    EXPECT_EQ(share_at(windows, now, above), 1.0);
 }
 
 TEST(FrozenWindows, MoreThanThereAreJobsForWaitDrawnByTheirParts) {
@@ -123,11 +176,11 @@ TEST(FrozenWindows, MoreThanThereAreJobsForWaitDrawnByTheirParts) {
         windows.begin(++number, set_up(hangs));
         const exhibit::PresentedWindow shown = presented(number);
         windows.step({&shown, 1});
-        const scene::WindowPatches* const patches = windows.look(number, {&above, 1});
+        const scene::WindowPatches* const patches = windows.look(number, {&above, 1}, now);
         EXPECT_TRUE(patches == nullptr || scene::points_for(*patches, above) == nullptr);
         EXPECT_EQ(windows.size(), 1U);
     }
-    EXPECT_EQ(windows.look(number, {&above, 1}), nullptr) << "all jobs are taken";
+    EXPECT_EQ(windows.look(number, {&above, 1}, now), nullptr) << "all jobs are taken";
     opens.set_value();
     EXPECT_TRUE(comes(windows, number, above));
     windows.begin(++number, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
@@ -188,7 +241,7 @@ TEST(FrozenWindows, AFrameThatFreezesAllocatesNothing) {
                         .parts = parts,
                         .view = view,
                         .eye_m = {0.0, -0.5, 0.6}});
-        const scene::WindowPatches* const patches = windows.look(number, {&above, 1});
+        const scene::WindowPatches* const patches = windows.look(number, {&above, 1}, now);
         windows.step({&shown, 1});
         EXPECT_EQ(synthetic::allocations_so_far() - before, 0) << number;
         EXPECT_NE(patches, nullptr) << "patches are made";
