@@ -50,7 +50,7 @@ public:
     /// Shows the other parts in the bound framebuffer, whose colour must be a texture; returns the number of draw calls.
     int show(const scene::FramePlan& plan, const ShaderCache& shaders) const;
 
-    /// After `paint`: finds the parts that `show` shows and the plan's torches light. Uploads what the GPU needs for their light.
+    /// After `paint`: which parts of what `show` shows the plan's torches light. Uploads what their light takes on the GPU.
     void find_lit_parts(const scene::FramePlan& plan);
     /// After `find_lit_parts`. True: call `light_here` for each torch, in order, instead of `light`.
     [[nodiscard]] bool lights_here() const { return lights_here_; }
