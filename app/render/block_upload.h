@@ -30,7 +30,7 @@ struct BlockSheet {
 /// `max_texels`: the driver's limit for a texture's side.
 [[nodiscard]] Result<BlockSheet> sheet_of(const relief::BlockRelief& relief, int max_texels);
 
-/// The most blocks that fit the driver's textures.
+/// The largest number of blocks that fits the driver's textures.
 [[nodiscard]] std::uint32_t max_blocks_on_gpu();
 
 /// GPU memory of a relief, bytes.

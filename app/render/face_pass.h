@@ -33,8 +33,8 @@ public:
     /// True if the plan has draws for this pass.
     [[nodiscard]] static bool draws(const scene::FramePlan& plan);
     /// Returns the number of draw calls. It skips reliefs rasterized on the processor, draws whose shader was
-    /// not prepared, and draws whose mesh or texture is not in the store. Away: what is turned away from the eye, as far as the
-    /// plan has it.
+    /// not prepared, and draws whose mesh or texture is not in the store. Facing::Away draws the back-facing
+    /// surfaces that the plan has.
     int draw(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
              const Raster& raster = {}, Output output = Output::Colours,
              relief::Facing facing = relief::Facing::Eye);

@@ -1,6 +1,6 @@
-/// The parts of a rasterized relief that lie in a torch's beam, and which of its own picture's tiles tell their shadows.
+/// The parts of a rasterized relief that lie in a torch's beam, and the tiles of the torch's own picture that their shadows need.
 ///
-/// Threads  pure; any. Allocates nothing once `rectangles` has room.
+/// Threads  pure; any. Allocates nothing once `rectangles` has the capacity.
 /// SIMD     as relief/rasterize_blocks.h.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace frustumscreen::render {
 
 struct LitParts {
     std::vector<PixelRectangle> rectangles; ///< disjoint; around all pixels in the beam, in groups of 8 x 8
-    relief::TileMask asked; ///< of the torch's own picture: tiles with the depths that they ask for
+    relief::TileMask asked;                 ///< tiles of the torch's own picture whose depths they need
 };
 
 /// Adds those of a part of the picture. `nearness`: of the whole picture (relief/nearness_row.h), at least 8 pixels wide.

@@ -40,8 +40,8 @@ public:
 
     enum class Depth { WhereItMeets, Everywhere };
     enum class Rectangles { MayBeCopied, AreDrawn };
-    /// Rasterizes the plan's reliefs, except those that are not in the store or that the GPU draws. Everywhere: all of it is to be
-    /// shown by `show_in_depth`. AreDrawn: `show` keeps what lies between their pixels. A plan of points has nothing else.
+    /// Rasterizes the plan's reliefs in the store that the GPU does not draw; a plan of points has nothing else. Everywhere:
+    /// `show_in_depth` shows all of it. AreDrawn: `show` draws pixel by pixel, and keeps the picture where no relief is.
     void paint(const scene::FramePlan& plan, const GpuStore& store, Depth depth = Depth::WhereItMeets,
                Rectangles rectangles = Rectangles::MayBeCopied, relief::Facing facing = relief::Facing::Eye);
     /// Draws those parts of the painted reliefs that meet the GPU's draws, into the bound framebuffer, in which FacePass
@@ -56,19 +56,19 @@ public:
 
     /// After `paint`: which parts of what `show` shows the plan's torches light. Uploads what their light takes on the GPU.
     void find_lit_parts(const scene::FramePlan& plan);
-    /// Since then: `light_here` is to be called for each torch, in order, in place of `light`.
+    /// After `find_lit_parts`. True: call `light_here` for each torch, in order, instead of `light`.
     [[nodiscard]] bool lights_here() const { return lights_here_; }
-    /// A torch's plain light on these parts, in main memory. `shadow`: PlainLight.
+    /// A torch's plain light on these parts, in main memory. `shadow`: as PlainLight::shadow.
     void light_here(const scene::FramePlan& plan, std::size_t torch, const torch::ShadowMap* shadow);
-    /// The tiles of a torch's own picture that these parts ask for.
+    /// The tiles of a torch's own picture whose depths these parts need.
     [[nodiscard]] const relief::TileMask& asked_of(std::size_t torch) const { return asked_[torch]; }
 
-    /// The plan's torches on what `show_in_depth` has drawn, as far as they show layers, and on what `show` has; each returns
+    /// Light of the plan's torches: of those that show layers, on what `show_in_depth` has drawn; of all, on what `show` has. Each returns
     /// the number of draw calls.
     int light_layers_in_depth(const Lit& lit);
     int light(const Lit& lit) const;
 
-    /// In place of `paint`: the nearness alone, into memory (relief::ReliefPainter::paint_nearness).
+    /// Instead of `paint`: the nearness alone, into memory (relief::ReliefPainter::paint_nearness).
     void paint_nearness(const scene::FramePlan& plan, const GpuStore& store, const relief::TileMask& asked,
                         const relief::PictureSpan<float>& nearness,
                         relief::Facing facing = relief::Facing::Eye);

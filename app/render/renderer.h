@@ -28,7 +28,7 @@ namespace frustumscreen::render {
 /// smooth the outlines and the texture. Only the artifact's rectangle is drawn larger and averaged down: on
 /// llvmpipe this takes half the time of the driver's own multisampling.
 ///
-/// The live exhibit has room for this many on each pixel of the prop. An artifact that asks for more gets
+/// The live exhibit's render target holds this many for each pixel of the prop. An artifact that asks for more gets
 /// them if it covers less of the picture than the prop; otherwise the samples are halved until the picture
 /// fits.
 inline constexpr int default_samples = 4;
@@ -141,7 +141,7 @@ private:
     [[nodiscard]] bool shows(std::span<const scene::FramePlan> plans) const;
 
     int width_, height_;
-    /// Room for the largest number of samples; a plan may ask for fewer, and for more in a smaller part.
+    /// Space for the largest number of samples; a plan may ask for fewer, and for more in a smaller part.
     scene::RenderNeeds needs_;
     GpuStore store_;
     ShaderCache shaders_;

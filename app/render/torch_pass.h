@@ -1,6 +1,6 @@
 /// The views of torches: a small picture with depth for each, from which their light's shadows come.
 ///
-/// Threads  the render thread; `see` allocates nothing, but for what it rasterizes a first time.
+/// Threads  the render thread; `see` allocates nothing, except the first time that it rasterizes.
 /// Errors   the driver is out of memory.
 #pragma once
 
@@ -27,15 +27,15 @@ public:
 
     /// Makes the pictures if plans may have torches.
     [[nodiscard]] Result<void> prepare(const scene::RenderNeeds& needs);
-    /// Finds or draws what each of the plan's torches sees; of the plan's own picture `painted` has what is rasterized, and is lit here
-    /// if it is lit on the processor. Returns the number of draw calls.
+    /// Makes the view of each of the plan's torches. `painted`: the rasterized parts of the plan's own picture, which are lit here if
+    /// they are lit on the processor. Returns the number of draw calls.
     int see(const scene::FramePlan& plan, const GpuStore& store, const ShaderCache& shaders,
             RasterPass& painted);
     /// One for each of the plan's torches, since `see`.
     [[nodiscard]] std::span<const TorchPicture> pictures() const { return pictures_; }
 
-    /// The plan's torches, but for layers, on samples that were averaged into the bound framebuffer, by the depth of each.
-    /// `averaged`: how they lie in the larger picture, whose depth is the texture `depths`. Returns the number of draw calls.
+    /// Light of the plan's torches, except layers, on samples that were averaged into the bound framebuffer, by each sample's depth.
+    /// `averaged`: their layout in the larger picture, whose depth is the texture `depths`. Returns the number of draw calls.
     int light_samples(const Lit& lit, const Raster& averaged, unsigned depths) const;
     /// The same on the pixels of the bound framebuffer, whose colour and depth are textures.
     int light_pixels(const Lit& lit) const;
@@ -47,21 +47,21 @@ private:
     struct Target {
         gl::GlFramebuffer framebuffer; ///< of `drawn_depth_` and `colour`
         gl::GlTexture colour;
-        gl::GlTexture depth;    ///< shadow map of what the GPU has drawn
-        gl::GlTexture nearness; ///< shadow map of what was found on the processor
+        gl::GlTexture depth;    ///< shadow map that the GPU has drawn
+        gl::GlTexture nearness; ///< shadow map that the processor has drawn
     };
     [[nodiscard]] Result<void> make_targets();
-    /// Finds the nearness of what the torch sees in some tiles of its picture, on the processor.
+    /// Finds the nearness of the surfaces in some tiles of the torch's view, on the processor.
     void cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
                    const relief::TileMask& asked, const GpuStore& store);
     /// Copies what lies within the bounds of the shadow map into the target's texture.
     void upload_shadow(const PixelRectangle& bounds, const Target& target);
-    /// Draws all that the torch sees, with its colours or without; or the depths of what is turned away from it. Returns the number
+    /// Draws the torch's view, with or without colours; or the depths of the surfaces that face away from it. Returns the number
     /// of draw calls.
     int draw_view(const scene::FramePlan& view, const Target& target, const GpuStore& store,
                   const ShaderCache& shaders, bool colours, relief::Facing facing = relief::Facing::Eye);
 
-    /// Makes the shadow map of what was drawn. Returns the number of draw calls.
+    /// Makes the shadow map of the drawn view. Returns the number of draw calls.
     int find_farthest(const scene::TorchLight& light, const Target& target, const ShaderCache& shaders,
                       bool has_backs) const;
 

@@ -26,7 +26,7 @@ struct Lit {
     const Raster& raster;
     std::span<const TorchPicture> torches; ///< one for each of the plan's
 };
-/// The shader of its own parts; otherwise the one for any content. Null: neither was prepared.
+/// The shader for the light's own parts, otherwise the one for any content. Null: neither was prepared.
 [[nodiscard]] const Shader* find_torch(const ShaderCache& shaders, const scene::ShaderKey& key,
                                        const scene::TorchLight& light);
 /// True if the content has other colours of the surface, which only the surface's own draws know.
@@ -41,15 +41,15 @@ inline constexpr unsigned shadow_unit = 4, content_unit = 5, layer_unit = 6, see
 
 /// How a beam's intensity falls (torch_shader.h).
 [[nodiscard]] glm::vec4 fall_of(const torch::Beam& beam);
-/// The share of z by which nothing shades itself: half a pixel of the torch's picture, the depth of a surface that bends within a
-/// pixel.
+/// The share of z within which a surface does not shade itself: half a pixel of the torch's picture, the depth of a surface that bends
+/// within a pixel.
 [[nodiscard]] double slack_of(const scene::TorchLight& light);
 void set_torch(const Shader& shader, const scene::TorchLight& light, const TorchPicture& picture,
                const GpuStore& store);
-/// Sets a face, and how its places are found by nearness.
+/// Sets a face and the maps from nearness to its places.
 void set_nearness(const Shader& shader, const scene::FramePlan& plan, const scene::TorchLight& light,
                   int face, const glm::ivec4& raster);
-/// Sets a face, and how its places are found by depth.
+/// Sets a face and the maps from depth to its places.
 void set_depths(const Shader& shader, const scene::TorchFace& face, const glm::ivec4& raster);
 /// Sets the face that a draw lights.
 void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw,

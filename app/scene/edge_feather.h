@@ -10,7 +10,7 @@
 ///          the table as a bright line. There the face goes dark half a pixel before the edge.
 ///
 /// Frames   clip coordinates as `Pinhole::clip_from_point`, w = 1.
-/// Threads  pure; any. Allocates nothing if the plan has room (make_plan).
+/// Threads  pure; any. Allocates nothing if the plan has the space (make_plan).
 #pragma once
 
 #include "app/geometry/pinhole.h"

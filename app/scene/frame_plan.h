@@ -109,7 +109,7 @@ struct PlacedWindow {
     double brightness = 1.0; ///< as PlanView::brightness
     /// Points that eyes see of the parts, drawn in their place where they are ready (window_patches.h); null: none are.
     const WindowPatches* patches = nullptr;
-    /// They light the parts, table frame; then no points are drawn. Only in a plan whose windows have room for them.
+    /// They light the parts, table frame; then no points are drawn. Only in a plan whose windows have space for them.
     std::span<const PlacedTorch> torches = {};
 };
 
@@ -140,9 +140,9 @@ struct PlanView {
     EyePicture picture = {};
     /// Table frame. The eyes that decide together how far the artifact dims; empty: `eyes_m`.
     std::span<const glm::dvec3> dimming_eyes_m = {};
-    /// They light what is in the prop, in this order; at most torch::max_torches. Only in a plan that has room for them.
+    /// They light what is in the prop, in this order; at most torch::max_torches. Only in a plan that has space for them.
     std::span<const PlacedTorch> torches = {};
-    /// Only in a plan that has room for them. The prop's light compensation and eyes are theirs too; torches are their own.
+    /// Only in a plan that has space for them. The prop's light compensation and eyes are theirs too; torches are their own.
     std::span<const PlacedWindow> windows = {};
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
@@ -276,7 +276,7 @@ struct FramePlan {
     std::vector<glm::vec4> cover_clip;
 };
 
-/// A plan with room for every face of `parts` parts that have `indices` indices together. A plan for torches or windows takes
+/// A plan with space for every face of `parts` parts that have `indices` indices together. A plan for torches or windows takes
 /// some more room (torch_plan.h, window_plan.h); without it none are planned.
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact);

@@ -6,7 +6,7 @@
 /// part of the rest.
 ///
 /// Frames   box (pack.h).
-/// Threads  pure; any. Allocates nothing if `indices` has room.
+/// Threads  pure; any. Allocates nothing if `indices` has the capacity.
 #pragma once
 
 #include "app/geometry/per_corner.h"

@@ -55,7 +55,7 @@ struct Stage {
     glm::dvec2 scroll_per_s{0.0}; ///< shares of the content's width and height
     double turn_rad_per_s = 0.0;  ///< clockwise as the content is seen
     double pulse_hz = 0.0;        ///< of the opacity
-    double pulse_depth = 0.0;     ///< 0..1: share of the opacity that goes
+    double pulse_depth = 0.0;     ///< 0..1: share by which the opacity drops
 
     [[nodiscard]] bool operator==(const Stage&) const = default;
 };
@@ -71,7 +71,7 @@ struct Content {
     [[nodiscard]] bool operator==(const Content&) const = default;
 };
 
-/// The parts that drawing a content takes, bits: a shader leaves the rest out.
+/// Bits: the parts needed to draw a content; a shader leaves the others out.
 enum ContentPart : std::uint8_t {
     PicturePart = 1,
     LayerPart = 2,

@@ -1,4 +1,4 @@
-/// A shadow map drawn on the processor: for each pixel of a torch's own picture how near the nearest triangle is.
+/// A shadow map drawn on the processor: the nearness of the nearest triangle at each pixel of a torch's own picture.
 ///
 /// Most triangles of a level are smaller than a pixel of the map and lie between pixel middles; they cost a comparison of
 /// cells. A software renderer sets each of them up.
@@ -7,7 +7,7 @@
 /// Units    nearness: a length of the caller's over z, the depth along the torch's axis; 0 where nothing was drawn. On a plane it
 ///          is linear in the picture.
 /// Threads  each one at a time. It keeps memory: a second `draw` of no more positions allocates nothing.
-/// Errors   none: a triangle whose corner is not finite is not drawn; nearer than 1/10 mm nothing is.
+/// Errors   none: a triangle with a corner that is not finite is not drawn, nor what is nearer than 1/10 mm.
 /// Method   corners are rounded to 1/256 of a pixel, then each edge function is exact in 64 bits, and pixels on an edge belong to
 ///          both triangles: a surface has no gaps. Triangles that reach beyond a guard band, behind the torch or out of
 ///          the half space are cut.
@@ -32,14 +32,14 @@ public:
     void begin(int width, int height) {
         begin(width, height, {.x = 0, .y = 0, .width = width, .height = height});
     }
-    /// Only what lies in a part of it counts, up to its last column and row; the rest is undefined.
+    /// Draws a part of the map alone, including its last column and row; the rest is undefined.
     void begin(int width, int height, const PixelRectangle& part);
 
     struct View {
         /// (x z, y z, z) of a place of the model: x and y in the picture, z in metres.
         glm::dmat4x3 picture_from_model{1.0};
         double metres = 1.0; ///< the nearness is this over z
-        /// The torch may be inside the object: triangles that are turned away go into `backs`.
+        /// The torch may be inside the object: back-facing triangles are drawn into `backs`.
         bool from_within = false;
         /// Only what lies in the half space a.(x z, y z, z) + d >= 0 is drawn, and of that only what is turned to the torch: an object
         /// that is cut open is seen through from within. Zero: all.
@@ -48,30 +48,30 @@ public:
     /// `indices`: three for each triangle, which has two sides.
     void draw(const View& view, std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
-    /// Ends the map. A pixel whose first surface is turned away, by more than the share `slack` before others, is dark from the torch
-    /// on: its light is inside an object there.
+    /// Ends the map. If the first surface at a pixel is back-facing and nearer than all others by more than the share `slack`, the
+    /// torch is inside an object there, and the whole ray is in shadow.
     void end(double slack);
-    /// The nearness with which a place is compared: of the three nearest middles among a pixel and its neighbours to the right, below
-    /// and both. The place lies between these.
+    /// The nearness to compare a place with. The place lies between the middles of a pixel and its neighbours to the right, below
+    /// and diagonally below; the three nearest of these four middles count.
     struct Farthest {
         float of_four = 0.0F; ///< the least nearness of all
         /// The least of all but one, or 0: the two lowest bits say which one: 0 the pixel, 1 to the right, 2 below, 3 both. For
         /// places away from that one; for others it is the same as of all.
         float without_one = 0.0F;
     };
-    /// At a pixel, not of the last column or row. Both are less by half of what their middles differ, as on a steep surface, a share of
-    /// `slack` at most.
+    /// At a pixel, not of the last column or row. Both values are reduced by half the range of nearness of the middles, for steep
+    /// surfaces, and by a share of `slack` at most.
     [[nodiscard]] Farthest farthest_at(int x, int y) const {
         const float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_ + x;
         return farthest_of(row[0], row[1], row[width_], row[width_ + 1], max_share_);
     }
-    /// Finds all of them, for `farthest`: row by row.
+    /// Computes `farthest` for all pixels, row by row.
     void find_farthest();
     [[nodiscard]] std::span<const Farthest> farthest() const { return farthest_; }
 
-    /// The nearness of surfaces that are turned away. The first call since `begin` clears it.
+    /// The nearness of back-facing surfaces. The first call since `begin` clears it.
     [[nodiscard]] std::span<float> backs();
-    /// Row by row. Others may draw into it too, as far as they keep the nearer.
+    /// Row by row. Others may draw into it too if they keep the nearer value.
     [[nodiscard]] std::span<float> nearness() { return nearness_; }
     [[nodiscard]] std::span<const float> nearness() const { return nearness_; }
     [[nodiscard]] int width() const { return width_; }

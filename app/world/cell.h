@@ -4,7 +4,7 @@
 ///          glTF's node. Geometry: the box of the cell's own geometry, which is baked like an artifact's.
 ///          box_from_cell = box_from_parent * parent_from_base * base_from_cell.
 /// Units    box units; a rotation is a unit quaternion.
-/// Threads  values; any. `pose_cells` allocates nothing into a list that has room.
+/// Threads  values; any. `pose_cells` allocates nothing into a list with the capacity.
 /// Source   Kim 2008, "Mixed object node"; Khronos, glTF 2.0, 3.5.3 (a node's transform is T * R * S).
 #pragma once
 

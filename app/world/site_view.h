@@ -2,8 +2,8 @@
 ///
 /// Frame    box: of the whole site as the prop shows it in miniature (pack.h); the site's places and the places where they appear
 ///          are both in it.
-/// Way      on the way from one view to another the size goes exponentially with the share of the way, so that it grows by the
-///          same factor in each moment. Every place of the site goes along a straight line, and never back.
+/// Way      from one view to another the zoom is an exponential function of the share of the way, so that it grows by the same
+///          factor in each moment. Every place of the site moves along a straight line, and never back.
 /// Threads  pure; any.
 /// Errors   none; numbers that are not finite give such views.
 #pragma once
@@ -29,7 +29,7 @@ struct SiteView {
     [[nodiscard]] bool operator==(const SiteView&) const = default;
 };
 
-/// The place stands in the middle of the prop's ground, so many times larger.
+/// The view with `place` in the middle of the prop's ground, enlarged `zoom` times.
 [[nodiscard]] SiteView view_of(const glm::dvec3& place, double zoom);
 
 /// `share` of the way, 0..1.
@@ -41,11 +41,11 @@ struct RegionBox {
 };
 /// The middle of its ground.
 [[nodiscard]] glm::dvec3 ground_of(const RegionBox& region);
-/// The region whose ground holds the place; of several, that whose middle is nearest; none holds it: nothing.
+/// The region whose ground holds the place; of several, the one whose middle is nearest; nothing: none holds it.
 [[nodiscard]] std::optional<std::size_t> region_at(std::span<const RegionBox> regions,
                                                    const glm::dvec2& place);
-/// The region in whose box a ray is longest, which is the one that it comes down on: `from` and `along` in the box frame; none: it
-/// passes all.
+/// The region in whose box the ray has its longest section, the one on which it lands. `from` and `along`: box frame. Nothing: the
+/// ray misses all.
 [[nodiscard]] std::optional<std::size_t> region_on_ray(std::span<const RegionBox> regions,
                                                        const glm::dvec3& from, const glm::dvec3& along);
 
