@@ -175,7 +175,7 @@ void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan
             shadow_map_.draw({.picture_from_model = picture_from_ray * glm::dmat4x3(light.torch_from_prop *
                                                                                     level.prop_from_box()),
                               .metres = 1.0 / static_cast<double>(light.inverse_z_of_nearness.x),
-                              .from_within = is_within(light, level),
+                              .from_within = casting != glm::dvec4(0.0) || is_within(light, level),
                               .casting = casting},
                              level.triangles->positions,
                              std::span(view.indices).subspan(draw.range.first, draw.range.count));

@@ -172,8 +172,23 @@ std::pair<glm::vec2, glm::vec2> plan_torch_view(std::span<const Part> parts, con
     return {glm::vec2(per_depth, -0.5 * (depth.w + 1.0) * per_depth), glm::vec2(from_nearness, 0.0)};
 }
 
-/// The half space behind the face that is farthest from the torch, torch's frame; zero: it is behind all faces.
-glm::dvec4 casting_before(const geometry::PropShape& prop, const geometry::RigidTransform& torch_from_prop) {
+/// True if a part's box is not wholly in the half space, torch's frame.
+bool reach_out_of(const glm::dvec4& half_space, std::span<const Part> parts,
+                  const geometry::RigidTransform& torch_from_prop) {
+    return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
+        const geometry::Box box = part.level.placed_box();
+        const glm::dvec4 placed = half_space * torch_from_prop.matrix() * part.level.prop_from_placed;
+        // Of the box the corner that is farthest out.
+        const glm::dvec3 out =
+            glm::mix(box.high, box.low, glm::greaterThan(glm::dvec3(placed), glm::dvec3(0.0)));
+        return glm::dot(placed, glm::dvec4(out, 1.0)) < 0.0;
+    });
+}
+
+/// The half space behind the face that is farthest from the torch, torch's frame; zero: it is behind all faces, or nothing reaches out
+/// of it.
+glm::dvec4 casting_before(const geometry::PropShape& prop, std::span<const Part> parts,
+                          const geometry::RigidTransform& torch_from_prop) {
     const geometry::RigidTransform prop_from_torch = torch_from_prop.inverse();
     glm::dvec4 casting(0.0);
     double farthest = 0.0;
@@ -184,7 +199,7 @@ glm::dvec4 casting_before(const geometry::PropShape& prop, const geometry::Rigid
             casting = half_space_behind(face, prop_from_torch.matrix());
         }
     }
-    return casting;
+    return reach_out_of(casting, parts, torch_from_prop) ? casting : glm::dvec4(0.0);
 }
 
 /// The torch's frame as the shader takes it.
@@ -212,7 +227,7 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
     for (std::size_t k = 0; k < torch::max_torches; ++k) {
         FramePlan& view = plan.torch_views.emplace_back(make_plan(surface, indices, parts));
         view.surface = surface;
-        view.front.keep_backs_from_within();
+        view.front.keep_backs(FrontTriangles::Backs::FromWithin);
         view.casters.reserve(parts);
     }
 }
@@ -283,8 +298,11 @@ void plan_torches(const geometry::PropShape& prop, std::span<const Part> parts, 
             }
         }
         TorchLight light = light_of(torch, view);
-        light.casting = is_beyond ? casting_before(prop, torch_from_prop) : glm::dvec4(0.0);
+        light.casting = is_beyond ? casting_before(prop, parts, torch_from_prop) : glm::dvec4(0.0);
         if (torch.casts_shadows) {
+            plan.torch_views[number].front.keep_backs(light.casting != glm::dvec4(0.0)
+                                                          ? FrontTriangles::Backs::Always
+                                                          : FrontTriangles::Backs::FromWithin);
             std::tie(light.inverse_z_of_depth, light.inverse_z_of_nearness) =
                 plan_torch_view(parts, view, torch, box, plan.torch_views[number]);
         }

@@ -136,7 +136,7 @@ void FrontTriangles::update(const LevelTriangles& level, const glm::dvec3& eye_b
     level_ = &level;
     eye_box_ = eye_box;
     const glm::vec3 eye(eye_box);
-    const bool both_sides = keeps_backs_ && is_within(eye, level);
+    const bool both_sides = backs_ == Backs::Always || (backs_ == Backs::FromWithin && is_within(eye, level));
     // Upper bound of the products' rounding error, for an eye at any distance.
     const float slack =
         both_sides ? std::numeric_limits<float>::infinity()

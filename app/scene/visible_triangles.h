@@ -63,8 +63,9 @@ class FrontTriangles {
 public:
     /// Reserves memory for levels of up to `indices` indices.
     void reserve(std::size_t indices);
-    /// From now on an eye within the box around a level sees its triangles from behind too.
-    void keep_backs_from_within() { keeps_backs_ = true; }
+    /// Which eyes see triangles from behind too: none, as at the beginning, those within the box around a level, or all.
+    enum class Backs : std::uint8_t { Never, FromWithin, Always };
+    void keep_backs(Backs backs) { backs_ = backs; }
     /// Discards the triangles found so far.
     void forget() { level_ = nullptr; }
     /// Finds the triangles again if the eye or the level has changed. A triangle within rounding of edge-on
@@ -76,7 +77,7 @@ public:
 
 private:
     const LevelTriangles* level_ = nullptr;
-    bool keeps_backs_ = false;
+    Backs backs_ = Backs::Never;
     glm::dvec3 eye_box_{0.0};
     std::vector<std::uint32_t> indices_;
     std::vector<std::size_t> first_; ///< start of each cluster in `indices_`, and the end

@@ -105,9 +105,7 @@ void ShadowMap::draw(const View& view, std::span<const glm::vec3> positions,
     place_corners(view, positions);
     // A front turns anticlockwise, unless the view mirrors.
     const bool mirrored = glm::determinant(glm::dmat3(view.picture_from_model)) < 0.0;
-    float* const turned_away = view.casting != glm::dvec4(0.0) ? nullptr
-                               : view.from_within              ? backs().data()
-                                                               : nearness_.data();
+    float* const turned_away = view.from_within ? backs().data() : nearness_.data();
     clockwise_ = mirrored ? nearness_.data() : turned_away;
     others_ = mirrored ? turned_away : nearness_.data();
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
@@ -168,10 +166,6 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c,
         draw_triangle(a, c, b, false);
         return;
     }
-    float* const into = clockwise ? clockwise_ : others_;
-    if (into == nullptr) {
-        return;
-    }
     // A middle on the right or lower border of the corners' box belongs to a neighbour.
     const int left = std::min({a.column, b.column, c.column});
     const int right = std::max({a.column, b.column, c.column}) - 1;
@@ -193,7 +187,7 @@ void ShadowMap::draw_triangle(const Corner& a, const Corner& b, const Corner& c,
     const double per_y = per_area * (rise_c * static_cast<double>(ab_x) - rise_b * static_cast<double>(ac_x));
     double at = near_a + (per_x * static_cast<double>(x0 - a.x) + per_y * static_cast<double>(y0 - a.y)) /
                              parts_of_pixel;
-    float* row = into + static_cast<std::ptrdiff_t>(top) * width_ + left;
+    float* row = (clockwise ? clockwise_ : others_) + static_cast<std::ptrdiff_t>(top) * width_ + left;
     for (int y = top; y <= bottom; ++y, row += width_, at += per_y) {
         int first = 0;
         int last = right - left;

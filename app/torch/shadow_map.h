@@ -41,8 +41,7 @@ public:
         double metres = 1.0; ///< the nearness is this over z
         /// The torch may be inside the object: back-facing triangles are drawn into `backs`.
         bool from_within = false;
-        /// Only what lies in the half space a.(x z, y z, z) + d >= 0 is drawn, and of that only what is turned to the torch: an object
-        /// that is cut open is seen through from within. Zero: all.
+        /// Only what lies in the half space a.(x z, y z, z) + d >= 0 is drawn; zero: all.
         glm::dvec4 casting{0.0};
     };
     /// `indices`: three for each triangle, which has two sides.
@@ -115,9 +114,7 @@ private:
     bool has_backs_ = false;
     float max_share_ = 0.0F; ///< the slack
     std::vector<Corner> corners_;
-    float *clockwise_ = nullptr,
-          *others_ =
-              nullptr; ///< where the view's triangles go: one of the two above; null: they are left out
+    float *clockwise_ = nullptr, *others_ = nullptr; ///< where the view's triangles go: one of the two above
 };
 
 } // namespace frustumscreen::torch

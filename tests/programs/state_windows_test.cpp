@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace frustumscreen::programs {
@@ -27,13 +28,14 @@ protected:
         put("still.csv", poses(false));
         put("lit.csv", poses(true));
     }
-    /// A still prop. `torch`: from five seconds on, above it on the right, pointed at it.
+    /// A still prop. `torch`: from four seconds on, above it on the right, pointed at it: it is carried there, and moves as in a hand.
     [[nodiscard]] static std::string poses(bool torch) {
         std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
         for (int k = 0; k < 140; ++k) {
             poses += fmt::format("{},1,0,0,0,1,0,0,0,1\n", 100'000 * k);
-            if (torch && k >= 50) { // its z axis is down and to the left
-                poses += fmt::format("{},3,0.16,0,0.36,0,0.97437,0,-0.22495,1\n", 100'000 * k);
+            if (torch && k >= 40) { // its z axis is down and to the left
+                poses += fmt::format("{},3,0.16,{},0.36,0,0.97437,0,-0.22495,1\n", 100'000 * k,
+                                     0.015 * std::max(50 - k, k % 2));
             }
         }
         return poses;
@@ -98,17 +100,17 @@ TEST_F(StateWindows, FrozenOnesStayLiveOnesMoveAndAStateIsWhatTheBehaviourLeaves
     EXPECT_EQ(apart(state, live, window), 0) << "as the behaviour leaves it";
 }
 
-/// Rays say of a live window where the light falls (tests/render/window_light_test.cpp). The window of the state has the same moment's.
+/// Rays say of such a window where the light falls (tests/render/window_light_test.cpp).
 TEST_F(StateWindows, AStateIsLitAsThePropWas) {
-    const std::string pin = "{ at_s = 1.0, button = 6 }", open = "{ at_s = 3.0, button = 5 }";
-    const std::string again = "{ at_s = 7.0, button = 6 }";
+    const std::string pin = "{ at_s = 1.0, button = 6 }", open = "{ at_s = 2.0, button = 5 }";
+    const std::string later = "{ at_s = 7.0, button = 6 }";
     const Region window = between(picture("count = 1", ""), picture("count = 1", pin));
-    const image::Image8 unlit = picture("count = 1", pin + ", " + again);
-    const image::Image8 live = picture("count = 1\nlive = true", pin + ", " + open, true);
-    const image::Image8 state = picture("count = 1", pin + ", " + again, true);
+    const image::Image8 unlit = picture("count = 1", pin + ", " + later);
+    const image::Image8 opened = picture("count = 1", open + ", " + later, true);
+    const image::Image8 state = picture("count = 1", pin + ", " + later, true);
     EXPECT_GT(apart(state, unlit, window), 300) << "the torch's light is in it";
-    EXPECT_EQ(apart(state, live, window), 0) << "as on the open lid";
-    const image::Image8 before = picture("count = 1", pin + ", { at_s = 4.0, button = 6 }", true);
+    EXPECT_EQ(apart(state, opened, window), 0) << "as on the open lid that was pinned";
+    const image::Image8 before = picture("count = 1", pin + ", { at_s = 3.0, button = 6 }", true);
     EXPECT_EQ(apart(before, unlit, window), 0) << "the torch came later";
 }
 

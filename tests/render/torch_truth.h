@@ -80,6 +80,9 @@ public:
     }
     [[nodiscard]] bool is_free(const glm::dvec3& point) const {
         const SeenPart first = first_on(point - origin());
+        if (is_in_object(first, point - origin())) {
+            return false;
+        }
         return first.part < 0 || way(first.point) > way(point) * (1.0 - 1e-9) - 1e-9;
     }
 
@@ -100,8 +103,10 @@ public:
             const glm::dvec3 to = prop_from_torch_.direction(
                 {q.x / q.z + r * std::cos(angle), q.y / q.z + r * std::sin(angle), 1.0});
             const SeenPart hit = first_on(to);
-            const double depth =
-                hit.part < 0 ? 1e9 : prop_from_torch_.inverse().point(hit.point).z; // before the torch
+            const double depth = is_in_object(hit, to) ? 0.0
+                                 : hit.part < 0
+                                     ? 1e9
+                                     : prop_from_torch_.inverse().point(hit.point).z; // before the torch
             const double surface =
                 glm::dot(place.normal, place.point - origin()) / glm::dot(place.normal, to);
             all_blocked = all_blocked && depth < q.z * (1.0 - 0.5 * pixel) - margin_m; // half a pixel bends
@@ -117,7 +122,11 @@ private:
             return world_.first_on(origin(), to);
         }
         const double down = -glm::dot(cut_->normal, to);
-        return down > 0.0 ? front_on(world_, origin() + before / down * to, to) : SeenPart{};
+        return down > 0.0 ? world_.first_on(origin() + before / down * to, to) : SeenPart{};
+    }
+    /// A ray that begins in an object that is cut open meets it from behind.
+    [[nodiscard]] bool is_in_object(const SeenPart& first, const glm::dvec3& to) const {
+        return cut_ && cut_->distance(origin()) > 0.0 && first.part >= 0 && glm::dot(first.normal, to) > 0.0;
     }
     [[nodiscard]] const glm::dvec3& origin() const { return prop_from_torch_.translation; }
 

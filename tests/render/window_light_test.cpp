@@ -140,6 +140,67 @@ TEST(WindowLight, LightsAWorldThatReachesOutOfItsWindowAsRaysSay) {
                  .share = 0.6});
 }
 
+/// Of the prop's faces the one that is farthest from the torch.
+std::optional<geometry::Plane> cut_before(const TestTable& table, const scene::PlacedTorch& torch) {
+    const glm::dvec3 from = table.table_from_prop.inverse().point(torch.table_from_torch.translation);
+    std::optional<geometry::Plane> cut;
+    for (const geometry::PropFace& face : table.prop.faces) {
+        const double away = face.plane.distance(from);
+        if (away > 0.0 && (!cut || away > cut->distance(from))) {
+            cut = face.plane;
+        }
+    }
+    return cut;
+}
+
+/// As the part of a site in the prop.
+TEST(WindowLight, LightsAWorldThatReachesOutOfThePropAsRaysSay) {
+    for (const int samples : {1, 4}) {
+        Interlocked world(geometry::make_frustum({}), ball_and_post(), samples, {}, 256, true);
+        world.choose(std::array{Way::Mesh, Way::Mesh, Way::Mesh});
+        for (scene::Part& part : world.parts) {
+            part.level.light = glm::vec3(base_light);
+            part.level.beyond = true;
+        }
+        TestTable table = table_of({});
+        table.prop = world.prop = geometry::make_frustum({.base_m = 0.12, .top_m = 0.08, .height_m = 0.07});
+        std::mt19937 random(65);
+        Counts counts;
+        for (int pose = 0; pose < 12; ++pose) {
+            table.shuffle(random);
+            const std::array torches{seeded_torch(table, random, pose)};
+            scene::PlanView view = table.view();
+            const image::Image8 without = world.picture(view);
+            view.torches = torches;
+            const image::Image8 with = world.picture(view);
+            keep_picture(with, "WINDOW_PICTURES",
+                         "light_prop_" + std::to_string(samples) + "_" + std::to_string(pose));
+            const glm::dvec3 eye = table.table_from_prop.inverse().point(table.eye_m);
+            const auto seen = [&](const glm::dvec2& pixel) {
+                const std::optional<ReferenceCast::Ray> ray = ReferenceCast::ray_of(table, pixel);
+                const glm::ivec2 at = glm::clamp(glm::ivec2(pixel), glm::ivec2(0),
+                                                 glm::ivec2(without.width - 1, without.height - 1));
+                return ray && without.at(at.x, at.y) != glm::u8vec4(0, 0, 0, 255)
+                           ? front_on(world, ray->lit, ray->lit - ray->eye)
+                           : SeenPart{};
+            };
+            Compared(world, table, torches, samples == 1 ? of_mesh : of_relief, eye, seen,
+                     cut_before(table, torches[0]))
+                .count(without, with, counts);
+        }
+        std::printf(
+            "%d samples: %zu lit, %zu dark, %zu of them in a shadow; excused: %zu at an outline, %zu at "
+            "an edge of the light; %zu wrong, by up to %.2f codes\n",
+            samples, counts.lit, counts.dark, counts.shadow, counts.outline, counts.edge, counts.wrong,
+            counts.worst);
+        const std::size_t pixels = counts.lit + counts.dark;
+        EXPECT_GT(counts.lit, 2000U);
+        EXPECT_GT(counts.shadow, 200U);
+        EXPECT_LE(counts.wrong, pixels / (samples == 1 ? 20000 : 2000)) << "by up to " << counts.worst;
+        EXPECT_LT(counts.outline + counts.edge, pixels / 5);
+    }
+}
+
 /// A world of the prop and two windows, each lit or not.
 struct LitBoth {
     WindowRig rig;

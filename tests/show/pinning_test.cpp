@@ -1,7 +1,13 @@
 // Frames in which a window is pinned, as the run loop draws them: they allocate nothing, and the window keeps a torch's light.
 
+#include "app/pack/pack_torches.h"
 #include "tests/render/counted_new.h"
 #include "tests/show/comings.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -96,6 +102,61 @@ TEST_F(PinnedLight, StaysInAFrozenWindowAndGoesOnInALiveOne) {
             EXPECT_EQ(after.in_second, during.in_second) << "its light is kept";
         }
     }
+}
+
+/// The first pack has a content of a torch: a white picture.
+pack::Pack pack_with_picture() {
+    pack::Pack pack = numbered_pack(0);
+    torch::Stage stage;
+    stage.source = torch::Source::Picture;
+    pack::PackTorches torches;
+    torches.contents = {{{.name = "picture", .blend = torch::Blend::Light, .stages = {stage}}, {}}};
+    torches.pictures = {{16, 16, ""}};
+    pack::TorchParts parts;
+    parts.pictures = {image::encode_webp(image::Image8(16, 16, {255, 255, 255, 255}))};
+    const Result<void> put = pack::put_torches(pack, torches, std::move(parts));
+    EXPECT_TRUE(put) << put.error().message;
+    return pack;
+}
+
+TEST_F(PinnedLight, OfAPictureFadesOutOfAFrozenWindowWhenAnotherArtifactComes) {
+    ASSERT_TRUE(write_file(files.files().front(), pack::write_pack(pack_with_picture()).value()));
+    settings.windows = {.count = 1, .width_m = 0.12, .depth_m = 0.12};
+    settings.torch.source = settings::TorchSource::Tracker;
+    settings.torch.house_light = 1.0;
+    start(2, true);
+    const image::Image8 bare = settled_picture();
+    torch_is_on = true;
+    static_cast<void>(settled_picture());
+    drawn_with(press);
+    static_cast<void>(settled_picture());
+    torch_is_on = false;
+    const image::Image8 lit = settled_picture();
+    const auto light = [&](const image::Image8& picture) {
+        long sum = 0;
+        for (std::size_t k = 0; k < picture.texels.size(); ++k) {
+            sum += bare.texels[k] != lit.texels[k] ? picture.texels[k].r : 0;
+        }
+        return sum;
+    };
+    std::vector<long> sums{light(lit)};
+    drawn_with(next);
+    for (int frame = 0; frame < 100; ++frame) {
+        drawn_with({});
+        sums.push_back(light(render::read_colour(display->framebuffer(), 320, 200)));
+    }
+    const long all = sums.front() - sums.back();
+    EXPECT_GT(all, sums.front() / 20) << "the picture's light is gone";
+    long most = 0;
+    int fading = 0;
+    for (std::size_t k = 1; k < sums.size(); ++k) {
+        most = std::max(most, std::abs(sums[k] - sums[k - 1]));
+        fading += sums[k] != sums[k - 1] ? 1 : 0;
+    }
+    std::printf("%ld of %ld codes go, at most %ld in a frame, in %d frames\n", all, sums.front(), most,
+                fading);
+    EXPECT_LT(most, all / 6) << "half a second has 25 frames";
+    EXPECT_GE(fading, 15);
 }
 
 TEST_F(Pinning, AFrameThatPinsAllocatesNothing) {
