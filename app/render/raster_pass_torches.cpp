@@ -1,5 +1,4 @@
 /// RasterPass: torches on what it has painted.
-#include "app/render/face_pass.h"
 #include "app/render/raster_pass.h"
 #include "app/scene/torch_plan.h"
 
@@ -169,15 +168,9 @@ int RasterPass::light(const Lit& lit) const {
             continue;
         }
         shader->use();
-        set_torch(*shader, light, lit.torches[face.torch], lit.store);
-        set_lit_face(*shader, lit.plan, lit.plan.draws[face.draw], lit.raster);
         set_nearness(*shader, lit.plan, light, face.face,
                      {lit.raster.fragments, lit.raster.corner + viewport});
-        begin_blending(light);
-        for (const PixelRectangle& part : lit_parts_[k].rectangles) {
-            set_scissor(part, lit.raster);
-            calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, *shader);
-        }
+        calls += light_face(lit, face, *shader, lit_parts_[k].rectangles);
     }
     end_blending();
     glDisable(GL_SCISSOR_TEST);

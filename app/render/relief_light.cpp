@@ -8,6 +8,8 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 namespace frustumscreen::render {
 
@@ -122,39 +124,81 @@ FRUSTUMSCREEN_INLINE Floats gain_at(const Uniforms& uniforms, const PlaceLanes& 
     return relief::least(all(uniforms.most), gain);
 }
 
-/// As torch_shader.h's, place by place.
-FRUSTUMSCREEN_INLINE bool is_shaded(const Uniforms& uniforms, const torch::ShadowMap& shadow, float s,
-                                    float t, float z) {
-    constexpr float half = 0.5F * torch_px;
-    const float x = s * half + (half - 0.5F);
-    const float y = t * half + (half - 0.5F);
-    const int low_x = std::clamp(static_cast<int>(x), 0, torch_px - 2);
-    const int low_y = std::clamp(static_cast<int>(y), 0, torch_px - 2);
-    const torch::ShadowMap::Farthest farthest = shadow.farthest_at(low_x, low_y);
-    const std::uint32_t away =
-        (x - static_cast<float>(low_x) < 0.5F ? 1U : 0U) + (y - static_cast<float>(low_y) < 0.5F ? 2U : 0U);
-    const bool is_away =
-        farthest.without_one > 0.0F && (std::bit_cast<std::uint32_t>(farthest.without_one) & 3U) == away;
-    const float seen = is_away ? farthest.without_one : farthest.of_four;
-    return z * (seen * uniforms.inverse_z.x + uniforms.inverse_z.y) * uniforms.nearer > 1.0F;
-}
-
-FRUSTUMSCREEN_INLINE void light_code(const ReliefLight::Codes& table, bool over, const glm::vec3& colour,
-                                     float share, glm::u8vec4& code) {
-    for (int channel = 0; channel < 3; ++channel) {
-        const float light = table.linear[code[channel]];
-        const float lit = over ? light + (std::min(colour[channel], 1.0F) - light) * share
-                               : light + light * std::min(colour[channel] * share, 1.0F);
-        const float root = std::sqrt(std::min(lit, 1.0F)) * (ReliefLight::roots - 1);
-        code[channel] = table.of[static_cast<std::size_t>(root + 0.5F)];
-    }
-}
-
 struct Pictures {
     relief::PictureSpan<const float> nearness;
     relief::PictureSpan<glm::u8vec4> codes;
     const torch::ShadowMap* shadow;
 };
+
+/// Of eight pixels of the map and their neighbours to the right.
+struct Pairs {
+    Floats left, right;
+    FRUSTUMSCREEN_INLINE Pairs(const float* map, Ints at) {
+        using Words = std::uint64_t __attribute__((vector_size(4 * relief::lanes)));
+        const auto pair = [&](int lane) FRUSTUMSCREEN_INLINED {
+            std::uint64_t two;
+            std::memcpy(&two, map + at[lane], sizeof two);
+            return two;
+        };
+        const auto low = std::bit_cast<Floats>(Words{pair(0), pair(1), pair(2), pair(3)});
+        const auto high = std::bit_cast<Floats>(Words{pair(4), pair(5), pair(6), pair(7)});
+        left = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+        right = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+    }
+};
+
+/// As torch_shader.h's, by ShadowMap::Farthest of eight places at once.
+FRUSTUMSCREEN_INLINE Ints shaded(const Uniforms& uniforms, const torch::ShadowMap& shadow,
+                                 const PlaceLanes& at, Ints lit) {
+    constexpr float half = 0.5F * torch_px;
+    const auto in_map = [&](Floats along)
+                            FRUSTUMSCREEN_INLINED { return lit ? along * half + (half - 0.5F) : Floats{}; };
+    const auto whole = [](Floats along) FRUSTUMSCREEN_INLINED {
+        return __builtin_convertvector(relief::least(relief::most(along, Floats{}), all(torch_px - 2)), Ints);
+    };
+    const Floats x = in_map(at.s), y = in_map(at.t);
+    const Ints low_x = whole(x), low_y = whole(y);
+    const Pairs above(shadow.nearness().data(), low_y * torch_px + low_x);
+    const Pairs below(shadow.nearness().data() + torch_px, low_y * torch_px + low_x);
+    const Floats above_far = relief::least(above.left, above.right);
+    const Floats above_near = relief::most(above.left, above.right);
+    const Floats below_far = relief::least(below.left, below.right);
+    const Floats below_near = relief::most(below.left, below.right);
+    const Floats nearest = relief::most(above_near, below_near);
+    const Floats first = relief::least(above_far, below_far);
+    const Floats second =
+        relief::least(relief::most(above_far, below_far), relief::least(above_near, below_near));
+    const Ints farthest = below_far < above_far ? (below.right < below.left ? Ints{} + 3 : Ints{} + 2)
+                                                : (above.right < above.left ? Ints{} + 1 : Ints{});
+    const Ints away = ((x - __builtin_convertvector(low_x, Floats) < 0.5F) & 1) +
+                      ((y - __builtin_convertvector(low_y, Floats) < 0.5F) & 2);
+    const Floats compared = (farthest == away) & (second > 0.0F) ? second : first;
+    const Floats seen = compared - relief::least(0.5F * (nearest - compared), shadow.max_share() * compared);
+    return at.z * (seen * uniforms.inverse_z.x + uniforms.inverse_z.y) * uniforms.nearer > 1.0F;
+}
+
+/// Eight codes, of which those in `lit` change.
+FRUSTUMSCREEN_INLINE void light_codes(const Uniforms& uniforms, const ReliefLight::Codes& table, Floats gain,
+                                      Floats share, Ints lit, glm::u8vec4* codes) {
+    std::array<glm::u8vec4, relief::lanes> shown;
+    std::memcpy(shown.data(), codes, sizeof shown);
+    for (int channel = 0; channel < 3; ++channel) {
+        Floats light;
+        for (int lane = 0; lane < relief::lanes; ++lane) {
+            light[lane] = table.linear[shown[static_cast<std::size_t>(lane)][channel]];
+        }
+        const Floats colour = gain * uniforms.colour[channel];
+        const Floats sum = uniforms.over ? light + (relief::least(colour, all(1.0F)) - light) * share
+                                         : light + light * relief::least(colour * share, all(1.0F));
+        const Floats root = root_of(relief::least(lit ? sum : Floats{}, all(1.0F)));
+        const Ints place = __builtin_convertvector(root * float{ReliefLight::roots - 1} + 0.5F, Ints);
+        for (int lane = 0; lane < relief::lanes; ++lane) {
+            std::uint8_t& code = shown[static_cast<std::size_t>(lane)][channel];
+            code = lit[lane] != 0 ? table.of[static_cast<std::size_t>(place[lane])] : code;
+        }
+    }
+    std::memcpy(codes, shown.data(), sizeof shown);
+}
 
 /// Eight pixels from `x` on, of which `inside` are lit.
 FRUSTUMSCREEN_INLINE void light_eight(const Uniforms& uniforms, const ReliefLight::Codes& table,
@@ -167,20 +211,19 @@ FRUSTUMSCREEN_INLINE void light_eight(const Uniforms& uniforms, const ReliefLigh
     const Floats column = __builtin_convertvector(relief::lane_numbers + x, Floats) + 0.5F;
     const PlaceLanes at = uniforms.map.at({column, all(static_cast<float>(y) + 0.5F)}, hit ? met : all(1.0F));
     const Floats square = at.x * at.x + at.y * at.y + at.z * at.z;
-    unsigned lit = relief::bits_of(hit & in_beam(uniforms, at, square));
-    if (lit == 0) {
+    Ints lit = hit & in_beam(uniforms, at, square);
+    if (!relief::any(lit)) {
         return;
+    }
+    if (pictures.shadow != nullptr) {
+        lit &= ~shaded(uniforms, *pictures.shadow, at, lit);
+        if (!relief::any(lit)) {
+            return;
+        }
     }
     const Floats share = relief::least(uniforms.opacity * intensity_at(uniforms, square), all(1.0F));
     const Floats gain = uniforms.over ? gain_at(uniforms, at) : all(1.0F);
-    for (; lit != 0; lit &= lit - 1) {
-        const int lane = std::countr_zero(lit);
-        if (pictures.shadow == nullptr ||
-            !is_shaded(uniforms, *pictures.shadow, at.s[lane], at.t[lane], at.z[lane])) {
-            light_code(table, uniforms.over, gain[lane] * uniforms.colour, share[lane],
-                       pictures.codes.at(x + lane, y));
-        }
-    }
+    light_codes(uniforms, table, gain, share, lit, &pictures.codes.at(x, y));
 }
 
 FRUSTUMSCREEN_INLINE void light_rectangle(const Uniforms& uniforms, const ReliefLight::Codes& table,

@@ -267,14 +267,8 @@ int TorchPass::light_samples(const Lit& lit, const Raster& averaged, unsigned de
             continue;
         }
         shader->use();
-        set_torch(*shader, light, lit.torches[face.torch], lit.store);
-        set_lit_face(*shader, lit.plan, lit.plan.draws[face.draw], lit.raster);
         set_depths(*shader, face, {averaged.fragments, averaged.corner - lit.raster.corner});
-        begin_blending(light);
-        for (const PixelRectangle& part : face.lit.rectangles()) {
-            set_scissor(part, lit.raster);
-            calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, *shader);
-        }
+        calls += light_face(lit, face, *shader, face.lit.rectangles());
     }
     end_blending();
     glDisable(GL_SCISSOR_TEST);

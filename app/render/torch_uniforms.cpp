@@ -1,5 +1,7 @@
 #include "app/render/torch_uniforms.h"
 
+#include "app/render/face_pass.h"
+
 #include <GLES2/gl2ext.h>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -166,6 +168,20 @@ void begin_blending(const scene::TorchLight& light) {
 void end_blending() {
     glDisable(GL_BLEND);
     glDisable(GL_FRAMEBUFFER_SRGB_EXT);
+}
+
+int light_face(const Lit& lit, const scene::TorchFace& face, const Shader& shader,
+               std::span<const PixelRectangle> parts) {
+    const scene::TorchLight& light = lit.plan.torches[face.torch];
+    set_torch(shader, light, lit.torches[face.torch], lit.store);
+    set_lit_face(shader, lit.plan, lit.plan.draws[face.draw], lit.raster);
+    begin_blending(light);
+    int calls = 0;
+    for (const PixelRectangle& part : parts) {
+        set_scissor(part, lit.raster);
+        calls += draw_outline(lit.plan.faces[static_cast<std::size_t>(face.face)].corners_clip, shader);
+    }
+    return calls;
 }
 
 } // namespace frustumscreen::render

@@ -54,6 +54,10 @@ void set_depths(const Shader& shader, const scene::TorchFace& face, const glm::i
 /// Sets the face that a draw lights.
 void set_lit_face(const Shader& shader, const scene::FramePlan& plan, const scene::Draw& draw,
                   const Raster& raster);
+/// Lights a face in these parts, with a shader in use for which the depth or nearness of its places is set; returns the number of draw
+/// calls.
+int light_face(const Lit& lit, const scene::TorchFace& face, const Shader& shader,
+               std::span<const PixelRectangle> parts);
 /// The layer that the torch shows; TextureId::None if it shows none.
 [[nodiscard]] scene::TextureId layer_of(const scene::TorchLight& light, const scene::Drawable& drawable);
 /// True if the content is the torch's own view.

@@ -58,15 +58,12 @@ public:
         /// places away from that one; for others it is the same as of all.
         float without_one = 0.0F;
     };
-    /// At a pixel, not of the last column or row. Both values are reduced by half the range of nearness of the middles, for steep
-    /// surfaces, and by a share of `slack` at most.
-    [[nodiscard]] Farthest farthest_at(int x, int y) const {
-        const float* const row = nearness_.data() + static_cast<std::ptrdiff_t>(y) * width_ + x;
-        return farthest_of(row[0], row[1], row[width_], row[width_ + 1], max_share_);
-    }
-    /// Computes `farthest` for all pixels, row by row.
+    /// Computes `farthest` for all pixels, row by row, but for the last column and row. Both values are reduced by half the range of
+    /// nearness of the middles, for steep surfaces, and by a share of `max_share` at most.
     void find_farthest();
     [[nodiscard]] std::span<const Farthest> farthest() const { return farthest_; }
+    /// The slack.
+    [[nodiscard]] float max_share() const { return max_share_; }
 
     /// The nearness of back-facing surfaces. The first call since `begin` clears it.
     [[nodiscard]] std::span<float> backs();
@@ -112,7 +109,7 @@ private:
     std::vector<float> nearness_, backs_;
     std::vector<Farthest> farthest_;
     bool has_backs_ = false;
-    float max_share_ = 0.0F; ///< the slack
+    float max_share_ = 0.0F;
     std::vector<Corner> corners_;
     float *clockwise_ = nullptr, *others_ = nullptr; ///< where the view's triangles go: one of the two above
 };

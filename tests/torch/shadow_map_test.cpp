@@ -179,7 +179,8 @@ TEST(ShadowMap, IsDarkWhereTheFirstSurfaceIsABack) {
             map.draw(view, mesh.positions, mesh.indices);
         }
         map.end(slack);
-        return static_cast<double>(map.farthest_at(32, 32).of_four);
+        map.find_farthest();
+        return static_cast<double>(map.farthest()[std::size_t{32} * side_px + 32].of_four);
     };
     for (const double sign : {1.0, -1.0}) {
         EXPECT_NEAR(first(sign, {sheet(true, 0.8F)}), 1.25, 1e-6);
