@@ -25,6 +25,7 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
 ///
 /// Of a world that reaches out of the prop, only what lies behind the face that is farthest from the torch casts shadows: what the faces
 /// cut off around the torch is not seen. Light that is in an object there, where it is cut open, lights nothing. A layer does not show.
+/// Where textures have holes, all of the world casts shadows.
 void plan_torches(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view,
                   const geometry::Box& box, FramePlan& plan);
 

@@ -1,6 +1,7 @@
 // Torches on the part of a site in windows, against rays from the torch to the regions' own triangles: a frozen window keeps the light that
 // lay on the part, a live one follows the torch while the part stands in the prop.
 
+#include "tests/render/counted_new.h"
 #include "tests/render/keep_picture.h"
 #include "tests/render/torch_truth.h"
 #include "tests/show/site_windows_rig.h"
@@ -188,6 +189,24 @@ TEST_F(SiteLight, OfATorchThatDoesNotMeetThePropIsNotKept) {
     torches_.clear();
     draw(view_at(region), region);
     EXPECT_EQ(picture().texels, beside.texels);
+}
+
+TEST_F(SiteLight, AllocatesNothingInAFrame) {
+    if (!allocations_are_counted) {
+        GTEST_SKIP() << "allocations are not counted under a sanitizer";
+    }
+    start(unlimited);
+    const world::SiteView part = view_at(region);
+    stay(region);
+    torches_ = {torch_at({-0.12, -0.2, 0.3})};
+    pin(rectangle_, window_light, true);
+    stay(region);
+    for (int frame = 0; frame < 10; ++frame) {
+        torches_.front().table_from_torch.translation.x += 1e-3;
+        const long before = allocations_so_far();
+        draw(part, region);
+        EXPECT_EQ(allocations_so_far() - before, 0);
+    }
 }
 
 /// A region whose page comes while its window lies there changes to it pixel by pixel.
