@@ -242,6 +242,23 @@ TEST(GrazingEye, SeesWhatRaysMeetOnTheRelief) {
     EXPECT_LT(others, met / 25);
 }
 
+TEST(GrazingEye, SeesTheSameWithEachSetOfInstructions) {
+    Grazing drawn;
+    RasterSamples plain;
+    for (const Eye& eye : draw_eyes(drawn.prop, 5)) {
+        drawn.draw(eye.at_m);
+        plain.begin(drawn.view.lit, 1);
+        rasterize(plain, drawn.relief, drawn.view, drawn.items, {}, Instructions::Plain);
+        ASSERT_EQ(plain.nearness, drawn.picture.nearness);
+        for (std::size_t k = 0; k < plain.nearness.size(); ++k) {
+            const bool met = plain.nearness[k] > 0.0F;
+            ASSERT_TRUE(!met || (plain.block[k] == drawn.picture.block[k] &&
+                                 plain.place[k] == drawn.picture.place[k]))
+                << k;
+        }
+    }
+}
+
 TEST(GrazingEye, TakesNoMoreStepsThanAnyOtherTimesThree) {
     Grazing drawn;
     const std::vector<bench::BenchPose> poses = bench::draw_poses(drawn.settings, drawn.prop, 20, 5).value();
