@@ -75,7 +75,7 @@ glm::dvec2 slope_in(const PictureMap& map, const SurfacePoint& surface, double l
     return through == 0.0 ? glm::dvec2(0.0) : slope / through;
 }
 
-/// The colours around a picture's pixel.
+/// The colours around a picture's pixel, and how far its surface reaches.
 class ColoursAround {
 public:
     ColoursAround(const DepthPicture& picture, double step_share, int x, int y,
@@ -97,7 +97,23 @@ public:
         return glm::u8vec4(colour + 0.5F);
     }
 
+    /// False if the place, in the image's pixels, lies beyond the pixel, on the side of a neighbour that is empty or shows a surface
+    /// behind: there the surface ends.
+    [[nodiscard]] bool reaches(const glm::dvec2& beside) const {
+        const glm::dvec2 off = picture_from_image_ * beside;
+        return (std::fabs(off.x) <= 0.5 || !ends_at(off.x < 0.0 ? -1 : 1, 0)) &&
+               (std::fabs(off.y) <= 0.5 || !ends_at(0, off.y < 0.0 ? -1 : 1));
+    }
+
 private:
+    [[nodiscard]] bool ends_at(int across, int down) const {
+        const int x = x_ + across;
+        const int y = y_ + down;
+        const bool is_within = x >= 0 && y >= 0 && x < picture_.camera.width && y < picture_.camera.height;
+        return is_within && static_cast<double>(picture_.nearness[picture_.at(x_, y_)] -
+                                                picture_.nearness[picture_.at(x, y)]) > limit_;
+    }
+
     /// A surface that the picture sees edge-on keeps its own colour.
     static constexpr double min_area_px = 0.05;
 
@@ -163,11 +179,11 @@ void LayerMerger::add_box(const PictureMap::Place& place, const glm::dvec2& half
             const bool covered = std::fabs(to_middle.x) <= half.x && std::fabs(to_middle.y) <= half.y;
             added.nearness =
                 static_cast<float>(place.nearness + glm::dot(glm::dvec2(added.slope), to_middle));
-            if ((covered || (x == column && y == row)) && added.nearness > 0.0F &&
-                std::isfinite(added.nearness)) {
+            if (((covered && colour.reaches(to_middle)) || (x == column && y == row)) &&
+                added.nearness > 0.0F && std::isfinite(added.nearness)) {
                 insert(static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) +
                            static_cast<std::size_t>(x),
-                       added, [&] { return colour(to_middle); });
+                       added, [&] { return colour.at(to_middle); });
             }
         }
     }
@@ -191,7 +207,7 @@ void LayerMerger::add(const DepthPicture& picture) {
                 const glm::dmat2 to_image = image_from_picture(map_, surface, *place);
                 const ColoursAround colours(picture, from.step_share(), x, y, to_image);
                 add_box(*place, half_box(to_image), {0.0F, glm::vec2(slope), picture.colours[pixel]},
-                        [&colours](const glm::dvec2& beside) { return colours.at(beside); });
+                        colours);
             }
         }
     }

@@ -357,8 +357,8 @@ int RasterPass::blend_points(const scene::FramePlan& plan, const ShaderCache& sh
         std::fill_n(&memory_.at(whole.x, y), whole.width, glm::u8vec4(0, 0, 0, 255));
     }
     const PixelRectangle painted = intersected(paint_points(*points), whole);
-    for (int y = painted.y; y < painted.y + painted.height;
-         ++y) { // where there is no point, what is drawn there fades out
+    // Where there is no point, what is drawn there fades out.
+    for (int y = painted.y; y < painted.y + painted.height; ++y) {
         for (int x = painted.x; x < painted.x + painted.width; ++x) {
             memory_.at(x, y).a = 255;
         }

@@ -38,7 +38,7 @@ struct PatchJobSetUp {
     std::shared_ptr<const WorldMaker> make_world;
     LevelInWindow shown;
     double radius_m = 1.0;    ///< of the eye from the window's middle, when it was frozen
-    ldi::CameraView view;     ///< its pixels are the samples of the window's picture
+    ldi::CameraView view;     ///< its pixels are as fine as PatchView::cameras
     int samples = 1;          ///< a pixel
     std::uint64_t number = 0; ///< that no other job has had
     std::uint64_t max_bytes = std::uint64_t{32} << 20U;

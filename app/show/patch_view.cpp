@@ -9,7 +9,7 @@ namespace {
 
 /// An eye between two cameras may see a place beside what either sees through the window alone.
 constexpr double margin = 1.4;
-constexpr int max_side = 1024; ///< samples across a window
+constexpr int max_side = 1024; ///< points across a window
 
 } // namespace
 
@@ -22,7 +22,7 @@ PatchView patch_view(const PatchViewRequest& request) {
     view.samples = request.samples > 1 ? 4 : 1;
     const double sample_m = pixel_m / (view.samples > 1 ? 2.0 : 1.0);
     const auto across = [&](double half) {
-        return std::clamp(static_cast<int>(std::lround(2.0 * half / sample_m)), 1, max_side);
+        return std::clamp(static_cast<int>(std::lround(points_along * 2.0 * half / sample_m)), 1, max_side);
     };
     view.cameras = {.half_extent_m = half_m,
                     .width = across(half_m.x),

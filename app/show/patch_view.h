@@ -1,4 +1,4 @@
-/// How the patches of a frozen window see its world: as finely as the window's picture in the projector's pixels.
+/// How the patches of a frozen window see its world: somewhat finer than the samples of its picture in the projector's pixels.
 ///
 /// Frames   table T; window: as scene::PinnedView.
 /// Units    metres.
@@ -19,6 +19,9 @@ struct PatchViewRequest {
     glm::dvec3 eye_m{0.0}; ///< that froze the window, table frame
     int samples = 1;       ///< a pixel, that its parts ask for
 };
+
+/// Points for each sample, along a side: a sample takes the colour of the point whose box holds it.
+inline constexpr double points_along = 1.2;
 
 struct PatchView {
     ldi::CameraView cameras;
