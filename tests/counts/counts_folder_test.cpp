@@ -24,7 +24,8 @@ TEST_F(FolderOfCounts, ADamagedFileIsPutAsideAndNeverWrittenOver) {
         const Result<OpenedDay> opened = open_day(folder, some_day);
         ASSERT_TRUE(opened) << opened.error().message;
         EXPECT_EQ(opened->counts.all(), Tally{});
-        EXPECT_NE(opened->trouble.find("it was renamed to 2026-11-27.json"), std::string::npos) << opened->trouble;
+        EXPECT_NE(opened->trouble.find("it was renamed to 2026-11-27.json"), std::string::npos)
+            << opened->trouble;
     }
     EXPECT_FALSE(has("2026-11-27.json"));
     EXPECT_EQ(text("2026-11-27.json.bad"), "damaged 1");

@@ -33,6 +33,8 @@ struct Change {
     int pixels = 0;   ///< that are brighter
     int coloured = 0; ///< of these, not grey as the window's frame is
     int covered = 0;  ///< that were lit before
+    /// Mostly of the windows' frames, which are alike in size; the artifact is larger in some than in others.
+    [[nodiscard]] int grey() const { return pixels - coloured; }
     glm::ivec2 low{1 << 20}, high{-1};
 };
 
@@ -122,7 +124,7 @@ TEST_F(RunWindows, OnesThatArePinnedOneAfterTheOtherLieSideBySideAndTwoAreThereA
     const Change first = change("frame_00001.png"), both = change("frame_00003.png");
     ASSERT_GT(first.pixels, 200);
     EXPECT_GT(both.coloured, 16 * first.coloured / 10);
-    EXPECT_LT(both.coloured, 25 * first.coloured / 10);
+    EXPECT_NEAR(both.grey(), 2 * first.grey(), first.grey() / 3);
     write_settings(
         "replay",
         bare +
@@ -130,7 +132,7 @@ TEST_F(RunWindows, OnesThatArePinnedOneAfterTheOtherLieSideBySideAndTwoAreThereA
     run("with", 5.9);
     const Change three = change("frame_00003.png");
     EXPECT_GT(three.coloured, 16 * first.coloured / 10);
-    EXPECT_LT(three.coloured, 25 * first.coloured / 10) << "the oldest went";
+    EXPECT_NEAR(three.grey(), 2 * first.grey(), first.grey() / 3) << "the oldest went";
 }
 
 /// Counts programs, bytes of GPU memory, devices and threads, as OpenGL and the program report them.

@@ -267,14 +267,14 @@ TEST(GrazingEye, TakesNoMoreStepsThanAnyOtherTimesThree) {
         drawn.draw(pose.table_from_prop.inverse().point(pose.eye_m));
         ordinary += drawn.steps() / static_cast<double>(poses.size());
     }
-    double most_steps = 0.0;
+    double max_steps = 0.0;
     for (const Eye& eye : draw_eyes(drawn.prop, 60)) {
         drawn.draw(eye.at_m);
         const double steps = drawn.steps();
         EXPECT_LT(steps, 3.0 * ordinary) << eye.at_m.x << " " << eye.at_m.y << " " << eye.at_m.z;
-        most_steps = std::max(most_steps, steps);
+        max_steps = std::max(max_steps, steps);
     }
-    std::printf("%.0f steps, at most %.0f before a face's plane\n", ordinary, most_steps);
+    std::printf("%.0f steps, at most %.0f before a face's plane\n", ordinary, max_steps);
 }
 
 } // namespace
