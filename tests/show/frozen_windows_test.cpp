@@ -164,10 +164,13 @@ TEST(FrozenWindows, OfSimulatedTimeChangeAtOnce) {
 }
 
 TEST(FrozenWindows, MoreThanThereAreJobsForWaitDrawnByTheirParts) {
+    std::atomic<bool> is_hanging{false};
     FrozenWindows windows({}, false);
     std::promise<void> opens;
     std::shared_future<void> open = opens.get_future().share();
-    const auto hangs = [open]() -> Result<FrozenWorld> {
+    const auto hangs = [open, &is_hanging]() -> Result<FrozenWorld> {
+        is_hanging = true;
+        is_hanging.notify_all();
         open.wait();
         return a_wall();
     };
@@ -176,6 +179,7 @@ TEST(FrozenWindows, MoreThanThereAreJobsForWaitDrawnByTheirParts) {
         windows.begin(++number, set_up(hangs));
         const exhibit::PresentedWindow shown = presented(number);
         windows.step({&shown, 1});
+        is_hanging.wait(false); // otherwise the thread frees the jobs that were left before it began
         const scene::WindowPatches* const patches = windows.look(number, {&above, 1}, now);
         EXPECT_TRUE(patches == nullptr || scene::points_for(*patches, above) == nullptr);
         EXPECT_EQ(windows.size(), 1U);
