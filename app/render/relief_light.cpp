@@ -130,7 +130,7 @@ struct Pictures {
     const torch::ShadowMap* shadow;
 };
 
-/// Of eight pixels of the map and their neighbours to the right.
+/// The values of eight pixels of the map and of their neighbours to the right.
 struct Pairs {
     Floats left, right;
     FRUSTUMSCREEN_INLINE Pairs(const float* map, Ints at) {

@@ -178,7 +178,7 @@ bool reach_out_of(const glm::dvec4& half_space, std::span<const Part> parts,
     return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
         const geometry::Box box = part.level.placed_box();
         const glm::dvec4 placed = half_space * torch_from_prop.matrix() * part.level.prop_from_placed;
-        // Of the box the corner that is farthest out.
+        // The box's corner that is farthest out.
         const glm::dvec3 out =
             glm::mix(box.high, box.low, glm::greaterThan(glm::dvec3(placed), glm::dvec3(0.0)));
         return glm::dot(placed, glm::dvec4(out, 1.0)) < 0.0;

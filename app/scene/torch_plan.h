@@ -23,9 +23,9 @@ void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, s
 
 /// Adds the view's torches to a plan of the same parts of `prop`. `box`: around all parts, prop frame.
 ///
-/// Of a world that reaches out of the prop, only what lies behind the face that is farthest from the torch casts shadows: what the faces
-/// cut off around the torch is not seen. Light that is in an object there, where it is cut open, lights nothing. A layer does not show.
-/// Where textures have holes, all of the world casts shadows.
+/// A world that reaches out of the prop casts shadows only behind the face that is farthest from the torch, because the faces cut off
+/// the rest. Where that face cuts an object open, light within the object lights nothing. A layer does not show. A world whose textures
+/// have holes casts shadows as a whole.
 void plan_torches(const geometry::PropShape& prop, std::span<const Part> parts, const PlanView& view,
                   const geometry::Box& box, FramePlan& plan);
 

@@ -53,7 +53,7 @@ struct WindowPatches {
 
 /// Null if there are no points for an eye, window's frame: its patch is not made, or it is too near or far (ldi/eye_cells.h).
 [[nodiscard]] const ldi::PointPatch* points_for(const WindowPatches& patches, const glm::dvec3& eye);
-/// What the eye is shown: that of the nearest of `WindowPatches::eyes`.
+/// The points that the nearest of `WindowPatches::eyes` is shown.
 [[nodiscard]] ShownPoints shown_to(const WindowPatches& patches, const glm::dvec3& eye);
 
 /// The points as a part of the window's world. If their share is below 1, they are to be drawn over the window's parts.

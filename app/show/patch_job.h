@@ -56,7 +56,7 @@ public:
     void look_from(const glm::dvec3& eye);
     /// Takes over what was made since the last call.
     void update();
-    /// What these eyes are shown; at most two.
+    /// Sets the eyes that look, at most two, and the points that each is shown.
     void show(std::span<const scene::WindowPatches::OfEye> eyes);
     [[nodiscard]] const scene::WindowPatches& patches() const { return patches_; }
     /// All that can be made is made. True on either thread.

@@ -39,7 +39,7 @@ float reach_of(float tolerance_box) {
     return 4.0F * tolerance_box + 1e-3F;
 }
 
-/// Of surfaces from fine to coarse. A texel is looked up within the reach of the next coarser surface.
+/// Charts surfaces, which are ordered from fine to coarse. A texel is looked up within the reach of the next coarser surface.
 std::vector<ChartedMesh> charted(const std::vector<Surface>& surfaces, float texel_box, int max_size) {
     SharedCharts charts(texel_box, max_size);
     for (auto surface = surfaces.rbegin(); surface != surfaces.rend(); ++surface) {

@@ -78,7 +78,7 @@ struct Grazing {
     BlockItems items;
     RasterSamples picture;
 
-    /// What an eye in the prop's frame sees.
+    /// Draws the picture for an eye in the prop's frame.
     void draw(const glm::dvec3& eye_m) {
         subject.show(view, settings, prop, {table_from_prop, table_from_prop.point(eye_m)});
         list_blocks(items, relief, view);

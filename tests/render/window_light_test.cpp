@@ -140,7 +140,7 @@ TEST(WindowLight, LightsAWorldThatReachesOutOfItsWindowAsRaysSay) {
                  .share = 0.6});
 }
 
-/// Of the prop's faces the one that is farthest from the torch.
+/// The prop's face that is farthest from the torch.
 std::optional<geometry::Plane> cut_before(const TestTable& table, const scene::PlacedTorch& torch) {
     const glm::dvec3 from = table.table_from_prop.inverse().point(torch.table_from_torch.translation);
     std::optional<geometry::Plane> cut;

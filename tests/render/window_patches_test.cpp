@@ -195,7 +195,7 @@ TEST(WindowPatches, HaveTheLightThatGeometryHas) {
     EXPECT_LE(std::sqrt(sum / static_cast<double>(count)), 2.0);
 }
 
-/// Of the pixels that `switched` changes.
+/// The difference over the pixels that `switched` changes.
 struct Change {
     double rmse = 0.0;
     int most = 0; ///< of a channel, anywhere

@@ -150,7 +150,7 @@ protected:
         }
         return fine;
     }
-    /// What the window shows at a pixel.
+    /// A pixel of the window and the region that it shows.
     struct Shown {
         bool in_window = false;
         std::optional<std::size_t> region;            ///< none: nothing

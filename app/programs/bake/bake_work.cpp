@@ -161,7 +161,7 @@ Result<CellsOfNodes> put_parts(pack::Pack& pack, const bake::SourceMesh& mesh, c
     return cell_of;
 }
 
-/// What the pack lacks for a kiosk.
+/// Names the things that a kiosk needs and the pack lacks.
 std::vector<std::string> missing_in(const pack::Pack& pack, const BakeRequest& request) {
     std::vector<std::string> missing = pack::missing_in(pack, request.rights);
     if (request.output.extension() != ".fspack" && !request.watched) {
