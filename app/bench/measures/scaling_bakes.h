@@ -21,7 +21,7 @@ struct ScalingBake {
     std::uint64_t scan_bytes = 0;
     double seconds = 0.0;
     double processor_seconds = 0.0;
-    std::uint64_t memory_bytes = 0; ///< the most at a time
+    std::uint64_t memory_bytes = 0; ///< peak
     std::uint64_t pack_bytes = 0;
     double shown_mean_mm = 0.0; ///< mean error of the level that is usually shown
     double min_mean_mm = 0.0;   ///< of the finest level

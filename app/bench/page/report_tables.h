@@ -3,7 +3,7 @@
 ///
 /// Cost     of a picture: in every table processor time as a multiple of the floor (`cpu_times_floor`), "x floor".
 /// Threads  pure; any.
-/// Errors   of csv_table.h.
+/// Errors   as csv_table.h.
 #pragma once
 
 #include "app/bench/page/csv_table.h"
