@@ -1,5 +1,5 @@
-/// Chooses the view that the next press pins: first what the prop shows, then, while the prop hardly moves, the artifact's states one by one in
-/// the same view.
+/// Chooses the view that the next press pins: first what the prop shows, then, while the prop hardly moves, the
+/// artifact's states one by one in the same view.
 ///
 /// Frames   table T, metres.
 /// Threads  values; one caller. Allocates nothing.

@@ -1,6 +1,6 @@
 /// Sets of numbers that are joined pair by pair, with path halving.
 ///
-/// Threads  none: `root` changes it too.
+/// Threads  one caller: `root` changes it too.
 /// Source   Tarjan, van Leeuwen, Worst-case analysis of set union algorithms, 1984.
 #pragma once
 

@@ -1,5 +1,5 @@
-/// The eyes of a patch in 16 cells, and for each cell the eyes at its corners. An eye sees hardly other points of a patch than
-/// the corners of its cell see.
+/// The eyes of a patch in 16 cells, and for each cell the eyes at its corners. Hardly any point of a patch is seen by
+/// an eye but by no corner of its cell.
 ///
 /// Frames   window (triangle_world.h).
 /// Units    metres.

@@ -36,7 +36,7 @@ struct PatchRelief {
     glm::dvec3 box_size{1.0};
     double texel_m = 0.0; ///< at most as asked for, unless the memory did not suffice
     double error_texels =
-        0.0; ///< root mean square of the surface's distance from the relief, along the lines, of `wanted_texel_m`
+        0.0; ///< root mean square of the surface's distance from the relief along the lines, in units of PatchLimits::texel_m
 
     [[nodiscard]] bool empty() const { return relief.blocks.empty(); }
 };

@@ -34,8 +34,8 @@ void put_site(const PackSite& site, PackDescription& pack);
 struct SiteRegion {
     glm::dvec3 low{0.0}, high{0.0};
 };
-/// The regions of the cells with geometry, in their order; empty: the pack is no site. A site without such cells, whose cells move, or whose places
-/// are not in their regions, is an error.
+/// The regions of the cells with geometry, in their order; empty: the pack is no site. A site without such cells,
+/// whose cells move, or whose places are not in their regions, is an error.
 [[nodiscard]] Result<std::vector<SiteRegion>> site_regions_of(const PackDescription& pack);
 
 } // namespace frustumscreen::pack

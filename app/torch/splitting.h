@@ -13,8 +13,9 @@
 ///              Linear          D = -(1 - c^2) / (r (dark - full))
 ///              SmoothStep      D with I' = -6 t (1 - t) / (dark - full), I'' = (12 t - 6) / (dark - full)^2
 ///          On a line of that direction inside the triangle, linear interpolation errs by at most B = L^2 / 8 max |D|, the
-///          maximum over the triangle's own distances and angles. Where the slope jumps by J, at `full_m` and `dark_m`, it errs by J |c| L / 4
-///          more, and a line meets that sphere twice: K. A point of weight w for one corner lies on a line parallel to
+///          maximum over the triangle's own distances and angles. Where the slope jumps by J, at `full_m` and
+///          `dark_m`, it errs by J |c| L / 4 more, and a line meets that sphere twice: K.
+///          A point of weight w for one corner lies on a line parallel to
 ///          the opposite edge, (1 - w) L long, between points of the two other edges of weights w and 1 - w, so it errs by
 ///          at most (1 - w)^2 B + (1 - w) K + 4 w (1 - w) (B + K) with the largest B and K of the three: 4/3 B, and
 ///          25/16 (B + K) where there are jumps. It bounds the attenuation alone: at the beam's edge and reach the
