@@ -48,7 +48,7 @@ public:
     }
     /// Null unless the way is in memory.
     [[nodiscard]] const scene::PlacedLevel* find(std::size_t model, std::size_t way) const;
-    /// Nothing if it is unknown yet, too.
+    /// The box inside the model's solid; nothing if there is none, or if it is not known yet.
     [[nodiscard]] const std::optional<scene::BoxCorners>& solid(std::size_t model) const {
         return entries_[model].solid;
     }

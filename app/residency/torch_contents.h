@@ -74,7 +74,7 @@ public:
     void note_layer(std::size_t layer, const Result<void>& uploaded);
     void release(render::GpuStore& store);
 
-    /// Whose contents are here.
+    /// The artifact whose contents are held; nullopt: none.
     [[nodiscard]] const std::optional<std::size_t>& artifact() const { return artifact_; }
     [[nodiscard]] const torch::Content* find(std::size_t artifact, std::size_t content) const;
     /// A content of the artifact on show.

@@ -276,8 +276,8 @@ struct FramePlan {
     std::vector<glm::vec4> cover_clip;
 };
 
-/// A plan with space for every face of `parts` parts that have `indices` indices together. A plan for torches or windows takes
-/// some more room (torch_plan.h, window_plan.h); without it none are planned.
+/// A plan with space for every face of `parts` parts that have `indices` indices together. A plan for torches or
+/// windows takes some more space (torch_plan.h, window_plan.h); without it none are planned.
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact);
 

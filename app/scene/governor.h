@@ -106,7 +106,7 @@ public:
     [[nodiscard]] const QualityLevel& quality_level() const { return quality_levels_[current_]; }
     [[nodiscard]] double expected_ms() const { return model_.expected_ms(current_); }
 
-    /// A frame of `quality level()` took `ms`; afterwards `quality level()` may be another.
+    /// A frame of `quality_level()` took `ms`; afterwards `quality_level()` may be another.
     void observe(MonotonicTime now, const FrameWork& work, double ms);
 
     /// The artifact comes on: chooses the level for the GPU's present load. The change is invisible, so it

@@ -39,7 +39,7 @@ namespace frustumscreen::show {
 
 struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
-    std::string technique = "auto"; ///< "auto": the governor's choice; otherwise see `level_of`
+    std::string technique = "auto"; ///< "auto": the governor's choice; otherwise see scene::quality_level_of
     int samples =
         render::default_samples; ///< for each pixel; the render target holds them wherever the prop stands
     unsigned cull_kinds = scene::AllCullKinds;
