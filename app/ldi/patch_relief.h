@@ -58,7 +58,7 @@ public:
     PatchBuild(const TriangleWorld& world, const Hemisphere& hemisphere, CameraViews& views,
                std::size_t patch, const PatchLimits& limits);
 
-    /// Does a piece of work: about so many triangles, or a row of blocks. False once the patch is made.
+    /// Does a piece of work: about `triangles` triangles, or a row of blocks. False once the patch is made.
     bool step(std::size_t triangles);
     /// Once `step` has returned false.
     [[nodiscard]] PatchRelief take() { return std::move(made_); }

@@ -15,7 +15,7 @@
 
 namespace frustumscreen::pack {
 
-/// The bake keeps at most as many.
+/// The bake keeps at most this number of corners.
 inline constexpr std::size_t max_hull_corners = 1024;
 
 /// The pack must not have the section yet.

@@ -184,7 +184,7 @@ private:
         bool is_relief_alone = false; ///< it has rasterized reliefs and nothing else
         double pixels = 0.0;          ///< in this frame's picture of one eye
         std::size_t wanted = 0;       ///< index into its options
-        std::size_t shown = 0;        ///< the same, and there
+        std::size_t shown = 0;        ///< index of the option that is drawn, which is in the store
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };
@@ -210,12 +210,12 @@ private:
     }
     /// The quickest option of a cell that is good enough at a zoom.
     [[nodiscard]] std::size_t option_at(std::size_t cell, double zoom) const;
-    /// The first of it and the coarser ones that is there and stays.
+    /// From `option_at` on towards coarser ones, the first option that is in the store and stays there.
     [[nodiscard]] std::size_t option_in_window(std::size_t cell, double zoom) const;
     /// Sets `wanted_`.
     void want_pages();
     void want_page(std::size_t place);
-    /// Those of the regions in the prop and about its size around it, nearest first.
+    /// Wants the pages of the regions in the prop and within about its size around it, nearest first.
     void want_pages_around(const world::SiteView& view);
     /// A cell's pose in this frame, in the site's view.
     [[nodiscard]] world::CellPose pose_of(const Cell& cell) const;

@@ -6,9 +6,10 @@
 /// Fade     from its parts to points and back, an eye's picture changes evenly over `fade_s`, counted by the times of its frames. With
 ///          `waits` it changes at once.
 /// Frames   table T; window: as scene::PinnedView.
-/// Threads  the thread that draws; it never waits for the other one, but with `waits` it makes all patches itself. Without `waits` it
-///          allocates only in `make_space`: there are jobs for twice as many windows as may lie on the table. While all of them are
-///          taken, because the other thread has not freed those of earlier windows yet, a new window waits for one, drawn by its parts.
+/// Threads  the render thread; it never waits for the worker thread, but with `waits` it makes all patches itself.
+///          Without `waits` it allocates only in `make_space`: there are jobs for twice as many windows as may lie on
+///          the table. While all of them are taken, because the worker thread has not freed those of earlier windows
+///          yet, a new window waits for one, drawn by its parts.
 /// Memory   for each window PatchJobSetUp::max_bytes, and the world while patches are made.
 /// Errors   none: a pack that cannot be read again has no patches.
 #pragma once

@@ -28,8 +28,8 @@ struct ScalingBake {
     std::size_t levels = 0;
 };
 
-/// Makes the built-in amphora of about so many triangles in `folder`, bakes it, and removes both files. `programs`: the
-/// folder of frustumscreen-artifact and frustumscreen-bake.
+/// Makes the built-in amphora of about `triangles` triangles in `folder`, bakes it, and removes both files.
+/// `programs`: the folder of frustumscreen-artifact and frustumscreen-bake.
 [[nodiscard]] Result<ScalingBake> bake_of_amphora(std::int64_t triangles, int size,
                                                   const std::filesystem::path& programs,
                                                   const std::filesystem::path& folder);
