@@ -34,13 +34,13 @@ public:
         CellMask cells = 0; ///< that it is a corner of
     };
 
-    /// Knows no eye.
+    /// Without a patch: every eye is in all cells.
     EyeCells() = default;
     EyeCells(const Hemisphere& hemisphere, std::size_t patch);
 
-    /// The eye's cell alone.
+    /// The cell that the eye is in; all cells for an eye that lies in none.
     [[nodiscard]] CellMask cell_of(const glm::dvec3& eye) const;
-    /// Each of them once, near and far.
+    /// The corners of all cells, each once, near and far.
     [[nodiscard]] std::vector<Corner> corners() const;
 
 private:

@@ -82,7 +82,7 @@ public:
     /// `eye_m`: the pose and eye for the expected times of quality levels.
     void start(const scene::FrameCost& cost, const geometry::PropShape& prop, const scene::PlanView& view,
                const glm::dvec3& eye_m);
-    /// Once a frame.
+    /// Call once a frame.
     void step(render::GpuStore& store, const CacheRequest& request);
     /// True if everything shown and waited for is in memory, except for items that were left out.
     [[nodiscard]] bool has(const CacheRequest& request) const;

@@ -74,7 +74,7 @@ public:
     ScreenOutput& operator=(const ScreenOutput&) = delete;
 
     void step(const ScreenFrame& frame);
-    /// Once a second.
+    /// Adds the screen's state to `status`; call once a second.
     void tell(RunStatus& status);
 
     /// Pictures to keep, as StillTaker.

@@ -53,7 +53,7 @@ public:
                bool waits);
     /// `cost`: of frames on this GPU.
     void set_cost(const scene::FrameCost& cost) { frozen_.set_cost(cost); }
-    /// Uploads the frame's texel.
+    /// Uploads the texel that the windows' frames are drawn with.
     [[nodiscard]] Result<void> prepare(render::GpuStore& store);
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
     /// Makes space for all that the artifacts of this set may show, and forgets the windows of another one.

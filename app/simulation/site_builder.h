@@ -37,7 +37,7 @@ public:
     /// Edges become `detail_m` long, or the whole of a patch where that is shorter.
     SiteBuilder(double detail_m, std::uint64_t seed) : detail_m_(detail_m), random_(seed), seed_(seed) {}
 
-    /// Equal on every machine.
+    /// The next random number from `low` to `high`; one seed gives equal numbers on every machine.
     [[nodiscard]] double between(double low, double high);
     /// Smooth noise, -1..1, of features of about a metre at `per_m` = 1.
     [[nodiscard]] double noise(const glm::dvec3& at_m, double per_m) const;

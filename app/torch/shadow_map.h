@@ -62,7 +62,7 @@ public:
     /// nearness of the middles, for steep surfaces, and by a share of `max_share` at most.
     void find_farthest();
     [[nodiscard]] std::span<const Farthest> farthest() const { return farthest_; }
-    /// The slack.
+    /// The share `slack` of the latest `end`.
     [[nodiscard]] float max_share() const { return max_share_; }
 
     /// The nearness of back-facing surfaces. The first call since `begin` clears it.
