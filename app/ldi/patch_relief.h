@@ -5,9 +5,10 @@
 /// Units    metres.
 /// Errors   none: a world that no eye of the patch sees makes an empty relief.
 /// Threads  one at a time; the result depends on the input alone, not on how the work was divided.
-/// Method   grids parallel to the patch's image plane and, for what is steep to it, across it, as the bake's for the directions of a
-///          prop's faces. Crossings of their lines are kept that face an eye of the patch, lie in what its window shows, and
-///          are seen by one of its cameras, or where none looks. docs/ldi.md: a patch as a relief.
+/// Method   grids parallel to the patch's image plane and, for what is steep to it, across it, as the bake's for the
+///          directions of a prop's faces. A crossing of their lines is kept if it faces an eye of the patch, lies in
+///          what its window shows, and is seen by one of its cameras or lies where no camera looks. docs/ldi.md: a
+///          patch as a relief.
 /// Source   layered depth images (Shade 1998); patches of the multi-LDI report.
 #pragma once
 

@@ -1,7 +1,7 @@
 /// The section `site` of a pack (FORMAT.md): the artifact is a site, terrain and buildings, whose cells are regions of its ground.
 /// A region can be shown large in the prop; then the cells are drawn, otherwise the whole.
 ///
-/// Units    of each region: the box of its geometry, box units (PackCell::low, high).
+/// Region   the box of a cell's geometry, box units (PackCell::low, high).
 /// Errors   one line beginning with the field's place in the manifest.
 /// Threads  pure; any.
 #pragma once

@@ -1,6 +1,7 @@
 /// The torches' light in a window: as it lay on the artifact when the window was pinned, or, in a live window, as it lies there now.
 ///
-/// Textures  pictures, films and layers stay for `fade_s` after their artifact was on show, in which their light leaves its windows.
+/// Textures  pictures, films and layers stay for `fade_s` after their artifact was on show; in this time they fade
+///           out in its windows.
 /// Frames    table T; prop P; window: as scene::PinnedView.
 /// Threads   values; one caller. Allocates nothing.
 /// Errors    none.

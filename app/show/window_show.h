@@ -1,8 +1,8 @@
 /// The windows that visitors have pinned, in the picture: what each shows, frozen when it was pinned, and a thin frame around it.
 ///
 /// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye, or their
-///          patches are (frozen_windows.h). The governor's
-///          later choices do not change them. A window whose artifact leaves the cache shows nothing any more.
+///          patches are (frozen_windows.h). The governor's later choices do not change them. A window whose artifact leaves
+///          the cache shows nothing any more.
 /// States   a window of a state shows its cells or its layer. All windows of an artifact with states are as large as all of its
 ///          states together need, so that they compare. Until the layer has come, the window is dark.
 /// Time     the windows' time is part of the frame's, which the governor bounds by the level in the prop; frames that miss their

@@ -5,7 +5,7 @@
 ///          switches hard, as the paper does. All else is the exhibit's, so that the choice alone is compared: its relief
 ///          rasterizer, its culling, its depth across cells. The paper draws three faces a cell from back to front and
 ///          merges cells whose boxes collide; both approximate that depth and could only be worse.
-/// Threads  the one of the set, which must outlive the technique.
+/// Threads  that of the set, which must outlive the technique.
 #pragma once
 
 #include "app/bench/mixed/cell_set.h"

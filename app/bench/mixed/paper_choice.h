@@ -4,7 +4,6 @@
 /// Rule     the most important cells are polygons, as long as the frame's polygons suffice; the others are relief. A
 ///          cell whose relief has texels no larger than a pixel stays relief ("when each pixel of the texture
 ///          projects to more than one pixel on the viewing plane").
-///          than one pixel on the viewing plane").
 /// Weights  "determined empirically": the search tries a grid of them on a walk of its own and keeps those with the
 ///          least error, by the pack's own errors of each cell.
 ///
