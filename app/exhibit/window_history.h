@@ -34,7 +34,7 @@ public:
         }
         return {pinned_ - 1, first_->eye_m, first_->table_from_prop};
     }
-    /// `view` was pinned.
+    /// Call when `view` was pinned.
     void note(std::size_t artifact, const ViewToPin& view) {
         if (!view.state) {
             artifact_ = artifact;
@@ -42,7 +42,7 @@ public:
         }
         pinned_ = view.state ? *view.state + 2 : 1;
     }
-    /// The next press pins what the prop shows.
+    /// Forgets the history: the next press pins what the prop shows.
     void forget() { first_.reset(); }
 
 private:

@@ -61,9 +61,9 @@ public:
 
     /// Does a piece of work: about `triangles` triangles, or a row of blocks. False once the patch is made.
     bool step(std::size_t triangles);
-    /// Once `step` has returned false.
+    /// Call once `step` has returned false.
     [[nodiscard]] PatchRelief take() { return std::move(made_); }
-    /// Without the views.
+    /// Bytes of main memory, without the camera views.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:

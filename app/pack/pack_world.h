@@ -56,7 +56,7 @@ struct PackWorld {
 
 /// From the manifest alone: the curves are empty.
 [[nodiscard]] Result<PackWorld> world_outline_of(const PackDescription& pack);
-/// With the curves; reads only their part and the manifest.
+/// The world with its curves; reads only their part and the manifest.
 [[nodiscard]] Result<PackWorld> load_world(const std::filesystem::path& file);
 /// A world of a pack that was read whole.
 [[nodiscard]] Result<PackWorld> world_of(const Pack& pack);

@@ -152,7 +152,7 @@ private:
     /// Starts and ends behaviours and moves the cells. True: the cells of the artifact on show are drawn.
     [[nodiscard]] bool move_cells(MonotonicTime now, const exhibit::Presentation& presentation,
                                   residency::RunLevels* levels, residency::RunCells* cells);
-    /// The part of a site that the prop shows, and the mark on its miniature.
+    /// Sets the part of a site that the prop shows, and the mark on its miniature.
     void show_site(const exhibit::Presentation& presentation, residency::RunCells& cells) const;
     /// Places the map of a site while the prop shows a part of it.
     void place_site_map(const exhibit::Presentation& presentation);

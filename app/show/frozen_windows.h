@@ -63,16 +63,17 @@ public:
     void set_cost(const scene::FrameCost& cost) { cost_ = cost; }
     /// Begins the window's patches, in place of those that it had.
     void freeze(const FrozenWindow& window);
-    /// Takes the window's patches away.
+    /// Forgets the window's patches.
     void forget(std::uint32_t number);
-    /// Begins with this world; `freeze` without the choice.
+    /// As `freeze`, but makes patches of this world without the choice.
     void begin(std::uint32_t number, PatchJobSetUp set_up);
     /// The patches that are ready for a window, which these eyes look at, window's frame; null: it has none. `fade_s`: time of a fade
     /// from its parts to points or back.
     [[nodiscard]] const scene::WindowPatches* look(std::uint32_t number, std::span<const glm::dvec3> eyes,
                                                    MonotonicTime now,
                                                    double fade_s = scene::PointFade::fade_s);
-    /// Once a frame, after all `look`: forgets windows that are not among these, and gives the thread its work.
+    /// Call once a frame, after all `look`: forgets windows that are not among these, and gives the worker thread its
+    /// work.
     void step(std::span<const exhibit::PresentedWindow> windows);
 
     [[nodiscard]] std::size_t size() const { return windows_.size(); }

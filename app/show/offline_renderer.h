@@ -89,7 +89,7 @@ private:
     [[nodiscard]] Result<void> take_torch(const OfflineScene& scene);
     /// Makes all patches of a window.
     [[nodiscard]] std::unique_ptr<PatchJob> patches_of(const Window& window, const glm::dvec3& eye_m) const;
-    /// The film's frame at a time since its content began.
+    /// Shows the film's frame at this time since its content began.
     void show_film(double seconds);
     void pose_cells(double seconds);
     void draw_once(std::span<const scene::PlanView> views);

@@ -46,7 +46,7 @@ struct PatchJobSetUp {
 
 class PatchJob {
 public:
-    /// True: `begin` may be called.
+    /// True if `begin` may be called.
     [[nodiscard]] bool is_free() const { return state_.load(std::memory_order_acquire) == State::Free; }
     void begin(PatchJobSetUp set_up);
     /// Its patches are not drawn from now on. The worker thread frees the job.
@@ -59,12 +59,12 @@ public:
     /// Sets the eyes that look, at most two, and the points that each is shown.
     void show(std::span<const scene::WindowPatches::OfEye> eyes);
     [[nodiscard]] const scene::WindowPatches& patches() const { return patches_; }
-    /// All that can be made is made. True on either thread.
+    /// True if all that can be made is made; on either thread.
     [[nodiscard]] bool is_done() const { return state_.load(std::memory_order_acquire) == State::Done; }
-    /// The patch that is looked at is made, or none can be made any more.
+    /// True if the patch that is looked at is made, or none can be made any more.
     [[nodiscard]] bool has_first() const;
     [[nodiscard]] bool is_left() const { return state_.load(std::memory_order_acquire) == State::Left; }
-    /// `step` has something to do.
+    /// True if `step` has something to do.
     [[nodiscard]] bool needs_work() const;
 
     /// Does a piece of the work.
@@ -74,7 +74,7 @@ private:
     enum class State : std::uint8_t { Free, Begun, Done, Left };
     void make_world();
     void hand_over();
-    /// Unless the job was left in the meantime.
+    /// Marks the job as done, unless it was left in the meantime.
     void end();
     void free();
 

@@ -95,17 +95,17 @@ private:
         WindowLight light;
         std::optional<world::SiteView> part;               ///< of a site, that it shows
         std::vector<residency::RunCells::SeenRegion> seen; ///< of that part
-        /// Its levels may leave the memory.
+        /// Drops the copies of the levels, so that these may leave the memory.
         void let_go();
     };
-    /// Drops the copies that windows held which are no longer presented.
+    /// Drops the copies in windows that are not presented any more.
     void let_go(const exhibit::PresentedWindows& presented);
     [[nodiscard]] Held& held_of(MonotonicTime now, const exhibit::PresentedWindow& window,
                                 const exhibit::PresentedWindows& presented,
                                 const residency::ArtifactCache& cache, const LightInProp& light);
     /// Leaves out the light that does not meet what the window shows.
     void limit_light(Held& held) const;
-    /// Sets `parts`, unless what they need has not come.
+    /// Sets `parts` once all that they need is loaded.
     void freeze(MonotonicTime now, const exhibit::PresentedWindow& window,
                 const residency::ArtifactCache& cache, Held& held) const;
     void aim(const exhibit::PresentedWindow& window, const std::optional<scene::WorldBall>& states,
@@ -120,13 +120,14 @@ private:
                                                           const geometry::RigidTransform& table_from_window,
                                                           std::span<const glm::dvec3> eyes_m,
                                                           MonotonicTime now);
-    /// The region of a site that is marked, as the prop will show it. False: none is, or it is not seen.
+    /// Places a window with the marked region of a site, as the prop will show it. False: none is marked, or it is
+    /// not seen.
     [[nodiscard]] bool place_preview(MonotonicTime now, const exhibit::Presentation& presentation,
                                      std::span<const glm::dvec3> eyes_m,
                                      const residency::ArtifactCache& cache, scene::PlacedWindow& placed);
     void set_samples(Held& held) const;
-    /// Sets the parts of a window that shows a part of a site to the best levels that are there, of all regions: its eye sees others than
-    /// the prop's faces.
+    /// Sets the parts of a window that shows a part of a site to the best levels that are there, of all regions: its
+    /// eye sees other regions than the prop's faces show.
     static void refresh(MonotonicTime now, const residency::RunCells& cells, Held& held);
     /// Tells each site which parts of it windows show.
     void expect_parts(const exhibit::Presentation& presentation, const residency::ArtifactCache& cache) const;

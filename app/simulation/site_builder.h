@@ -59,7 +59,7 @@ public:
               const Look& look);
     /// The square on which the site stands, at z = 0, seen from below.
     void base(double half_side_m);
-    /// Without its bottom. `yaw`: about its middle.
+    /// A box without its bottom. `yaw`: about its middle.
     void box(const glm::dvec3& foot, const glm::dvec3& size, double yaw, const Look& look);
     /// A body of revolution about a vertical axis; `radius_at` of 0..1, from below to above, open below.
     void turned(const glm::dvec3& foot, double height, const std::function<double(double)>& radius_at,
