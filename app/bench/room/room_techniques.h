@@ -67,7 +67,7 @@ struct PaperPolygons {
 /// The weights of least error on these frames, by the packs' own errors.
 [[nodiscard]] PaperWeights room_weights(const RoomSet& set, const PaperPolygons& polygons,
                                         std::span<const RoomFrame> frames);
-/// The polygons of all objects, drawn so.
+/// The number of polygons of all objects, drawn as `polygons` says.
 [[nodiscard]] double all_room_polygons(const RoomSet& set, const PaperPolygons& polygons);
 
 } // namespace frustumscreen::bench
