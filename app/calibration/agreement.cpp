@@ -17,7 +17,7 @@ constexpr std::size_t max_choices = 1000;
 /// At most a fifth of the touches counts as wrong: fewer others cannot tell which ones are.
 constexpr std::size_t wrong_of = 5;
 constexpr double max_scatter = 2.0;
-/// A rough fit is refined if its chi squared is below so many times the limit.
+/// A rough fit is refined if its chi squared is below this multiple of the limit.
 constexpr double worth_a_fit = 100.0;
 /// Sets whose chi squared differs by less than this explain the touches equally well.
 constexpr double alike = 6.0;

@@ -1,6 +1,7 @@
 /// Computes how much a few more unknowns, which disturb some touches alike, would improve a fit to touches.
 ///
-/// Method   Linear about the fit: the unknowns' columns less what the fit's own 19 unknowns take up of them.
+/// Method   Linear about the fit. Of each unknown's column only the part counts that the fit's own 19 unknowns cannot
+///          explain.
 /// Units    residuals whitened, so that a gain is a difference of chi squared.
 /// Threads  pure; any.
 #pragma once

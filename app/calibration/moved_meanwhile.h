@@ -3,7 +3,7 @@
 /// Method   From some touch on, all places are displaced by one rigid move along the table: three unknowns. Each touch is
 ///          tried as the first after the move; at least three touches lie before it and after it. A projector that was
 ///          turned a little displaces the places in the same way, so the two are not told apart.
-/// Limits   A move just as the boards come looks like a projector that hangs elsewhere.
+/// Limits   A move between the touches on the table and those on boards looks like a projector that hangs elsewhere.
 /// Threads  pure; any.
 #pragma once
 

@@ -3,8 +3,8 @@
 /// Method   Metal answers the source's field as a small dipole. Four unknowns: its place and its strength. The tracker's error
 ///          that follows is computed to first order. Places on a grid about the touches are tried, and the
 ///          best is refined.
-/// Limits   The source must be the origin of the tracker's frame. Metal that is far away bends all touches smoothly: the
-///          fit takes that up.
+/// Limits   The source must be the origin of the tracker's frame. Metal that is far away bends all touches smoothly:
+///          the fit absorbs that.
 /// Source   Raab, Blood, Steiner and Jones, Magnetic position and orientation tracking system, 1979
 /// Threads  pure; any.
 #pragma once

@@ -17,8 +17,8 @@ namespace frustumscreen::calibration {
 /// `covariance`: of the unknowns, positive definite.
 [[nodiscard]] PictureShares picture_shares(std::span<const ZonePlace> places, const Covariance& covariance);
 
-/// `moves_by_error`: two rows a place, its linear move by each error of one standard deviation. `freedom`: the number of residuals that the
-/// standard deviation was estimated from; 0: it is known.
+/// `moves_by_error`: two rows a place, its linear move by each error of one standard deviation. `freedom`: the number
+/// of residuals that the standard deviation was estimated from; 0: it is known.
 [[nodiscard]] PictureShares picture_shares(const Eigen::MatrixXd& moves_by_error, int freedom);
 
 } // namespace frustumscreen::calibration

@@ -18,7 +18,7 @@ namespace frustumscreen::calibration {
 enum class Moved { Nothing, Projector, Tracker, Either };
 [[nodiscard]] std::string_view name_of(Moved moved);
 
-/// Turn, then shift.
+/// A small turn, as a rotation vector in radians, then a shift in metres.
 using RigidMove = Eigen::Matrix<double, 6, 1>;
 using ByRigidMove = Eigen::Matrix<double, unknown_count, 6>;
 

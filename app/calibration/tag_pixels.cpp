@@ -15,7 +15,7 @@ constexpr double reach = 1.15;
 /// Share of the contrast on the tag's white.
 constexpr double min_white = 0.75;
 constexpr std::size_t min_pixels = 60;
-/// A decoded pixel whose residual is so many times the median is wrong.
+/// A decoded pixel whose residual is more than this multiple of the median is wrong.
 constexpr double farthest = 4.0;
 
 using Points = std::vector<Eigen::Vector2d>;

@@ -1,6 +1,6 @@
 /// The notes next to the drawing of the table: positions and measures in words.
 ///
-/// Units    millimetres and degrees, as written.
+/// Units    in words: millimetres and degrees; functions: metres in the table frame T.
 /// Threads  pure; any.
 #pragma once
 

@@ -177,7 +177,7 @@ private:
     // Torches: exhibit_torches.cpp.
     /// Handles the presses that control a held torch.
     void take_torch_presses();
-    /// Uses the artifact's brightness, and dims it.
+    /// Steps the torches' lights, and dims the artifact while a torch is held. Needs `presentation.brightness`.
     void throw_light(MonotonicTime now, const tracking::TrackedState& tracked_state, const Shown& shown,
                      const DrawnPose& drawn, Presentation& presentation);
     /// The advice to a visitor whose torch lights nothing; none: no advice.

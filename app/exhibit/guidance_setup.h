@@ -10,7 +10,7 @@
 namespace frustumscreen::exhibit {
 
 [[nodiscard]] guidance::GuidanceSetup guidance_setup(const settings::Settings& settings);
-/// With the two eyes that are shown, if the set-up has two.
+/// The situation of the tracked state; with the two eyes that are shown, if the set-up has two.
 [[nodiscard]] guidance::GuidedState guided_state(const guidance::GuidanceSetup& setup,
                                                  const tracking::TrackedState& tracked_state);
 

@@ -1,4 +1,4 @@
-/// The picture in the place of a site's map on the table (Presentation::site_map), as TitleIndex::behaviour.
+/// Values of TitleIndex::behaviour that say which picture lies in the place of a site's map (Presentation::site_map).
 ///
 /// Threads  constants.
 #pragma once
@@ -9,7 +9,7 @@ namespace frustumscreen::exhibit {
 
 /// The map, while the prop shows a part of the site.
 inline constexpr std::size_t site_map_title = 0;
-/// On the miniature, a window into the marked region, whose number is added.
+/// A window into the marked region, while the prop shows the miniature; the region's number is added.
 inline constexpr std::size_t site_preview_title = 1;
 
 } // namespace frustumscreen::exhibit

@@ -12,7 +12,8 @@
 
 namespace frustumscreen::exhibit {
 
-/// The shortest slide of `thing` after which it is `gap_m` from `other` along some normal of their edges; none: it is already.
+/// The shortest slide of `thing` after which it is `gap_m` from `other` along some normal of their edges; none: it is
+/// clear already.
 [[nodiscard]] std::optional<glm::dvec2> slide_clear(std::span<const glm::dvec2> thing,
                                                     std::span<const glm::dvec2> other, double gap_m);
 

@@ -30,7 +30,7 @@ struct PictureArea {
 
 /// The places found for a number of pictures.
 struct FoundPlaces {
-    double size = 0.0;  ///< of the pictures; 0 = not so many fit
+    double size = 0.0;  ///< of the pictures; 0: they do not all fit
     double value = 0.0; ///< `size`, less a deduction for uneven rows
     double cost = 0.0;
     std::vector<glm::dvec2> middles; ///< of picture and title together; in reading order

@@ -1,5 +1,5 @@
-/// Chooses the view that the next press pins: first what the prop shows, then, while the prop hardly moves, the artifact's states one by one in
-/// the same view.
+/// Chooses the view that the next press pins: first what the prop shows, then, while the prop hardly moves, the
+/// artifact's states one by one in the same view.
 ///
 /// Frames   table T, metres.
 /// Threads  values; one caller. Allocates nothing.
@@ -34,7 +34,7 @@ public:
         }
         return {pinned_ - 1, first_->eye_m, first_->table_from_prop};
     }
-    /// `view` was pinned.
+    /// Call when `view` was pinned.
     void note(std::size_t artifact, const ViewToPin& view) {
         if (!view.state) {
             artifact_ = artifact;
@@ -42,7 +42,7 @@ public:
         }
         pinned_ = view.state ? *view.state + 2 : 1;
     }
-    /// The next press pins what the prop shows.
+    /// Forgets the history: the next press pins what the prop shows.
     void forget() { first_.reset(); }
 
 private:

@@ -28,7 +28,7 @@ public:
         double turn_rad = 0.0; ///< of the artifact, about the prop's axis
         double zoom = 1.0;
     };
-    /// From the view that the window has.
+    /// Begins from the view that the window has.
     void begin(MonotonicTime now, const View& view, const geometry::RigidTransform& table_from_prop);
     void end() { on_ = false; }
     [[nodiscard]] bool on() const { return on_; }

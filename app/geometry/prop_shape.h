@@ -40,8 +40,8 @@ struct PropShape {
     glm::dvec3 middle{0.0};          ///< of the box around it
 };
 
-/// The corners on which the prop stands, those no more than 0.5 mm above the lowest one: one, two, or a polygon counter-clockwise seen from
-/// above.
+/// The corners on which the prop stands, those no more than 0.5 mm above the lowest one: one, two, or a polygon
+/// counter-clockwise seen from above.
 [[nodiscard]] std::vector<glm::dvec3> foot_of(const PropShape& prop);
 
 /// Quarter turns about +Z after which the prop looks the same: 1 for a frustum or a cube, 2, or 4 for a whole turn.

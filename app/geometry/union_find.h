@@ -1,6 +1,6 @@
 /// Sets of numbers that are joined pair by pair, with path halving.
 ///
-/// Threads  none: `root` changes it too.
+/// Threads  one caller: `root` changes it too.
 /// Source   Tarjan, van Leeuwen, Worst-case analysis of set union algorithms, 1984.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace frustumscreen::geometry {
 
 class UnionFind {
 public:
-    /// Each number below `count` alone.
+    /// Each number below `count` in a set of its own.
     explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
 
     /// The number that stands for the set of `k`.
@@ -31,7 +31,7 @@ public:
         parent_[from] = to;
         return from != to;
     }
-    /// Indexed by number.
+    /// The root of each number, indexed by number.
     [[nodiscard]] std::vector<std::uint32_t> roots() {
         for (std::uint32_t& each : parent_) {
             each = root(each);

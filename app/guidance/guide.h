@@ -71,7 +71,7 @@ public:
     /// while the words are not visible on the table.
     [[nodiscard]] const Guidance& step(MonotonicTime now, const GuidedState& tracked_state, Sensing sensing,
                                        bool may_speak);
-    /// No advice is needed now, whatever the visitor sees; the next step starts a new search.
+    /// Ends the advice: none is needed now, whatever the visitor sees; the next step starts a new search.
     void be_quiet(MonotonicTime now);
     /// Call when a visitor asks for help: the next steps search for an advice and give it in all forms at once.
     void ask() { asked_ = true; }

@@ -1,9 +1,10 @@
 /// frustumscreen-request.toml on a stick: which of its things the kiosk is to write to the stick. It counts only with its
 /// signature, made with one of the keys that the kiosk's settings name; or empty, with the staff's buttons.
 ///
-/// Keys     reset = true: the kiosk goes back to the state of delivery, once the staff's button confirms it; what = ["settings", "calibration", "counts", "packs"]; until = "2031-12-31", its last day; machine =
-///          "frustumscreen-1a2b3c", the host's name of the one kiosk that is meant. `machine` may be left out, and `what` or
-///          `reset`.
+/// Keys     reset = true: the kiosk goes back to the state of delivery, once the staff's button confirms it; what =
+///          ["settings", "calibration", "counts", "packs"]; until = "2031-12-31", its last day; machine =
+///          "frustumscreen-1a2b3c", the host's name of the one kiosk that is meant. `machine` may be left out, and
+///          `what` or `reset`.
 /// Errors   one sentence that begins with the file's name.
 /// Threads  one caller; parsing is pure.
 #pragma once

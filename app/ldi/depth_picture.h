@@ -38,7 +38,7 @@ struct PictureCamera {
     }
 };
 
-/// Through the window itself.
+/// The camera at `eye` whose picture is the window itself, window frame.
 [[nodiscard]] PictureCamera camera_through_window(const glm::dvec3& eye, const glm::dvec2& half_extent_m,
                                                   int width, int height);
 

@@ -1,5 +1,5 @@
-/// The eyes of a patch in 16 cells, and for each cell the eyes at its corners. An eye sees hardly other points of a patch than
-/// the corners of its cell see.
+/// The eyes of a patch in 16 cells, and for each cell the eyes at its corners. Hardly any point of a patch is seen by
+/// an eye but by no corner of its cell.
 ///
 /// Frames   window (triangle_world.h).
 /// Units    metres.
@@ -34,13 +34,13 @@ public:
         CellMask cells = 0; ///< that it is a corner of
     };
 
-    /// Knows no eye.
+    /// Without a patch: every eye is in all cells.
     EyeCells() = default;
     EyeCells(const Hemisphere& hemisphere, std::size_t patch);
 
-    /// The eye's cell alone.
+    /// The cell that the eye is in; all cells for an eye that lies in none.
     [[nodiscard]] CellMask cell_of(const glm::dvec3& eye) const;
-    /// Each of them once, near and far.
+    /// The corners of all cells, each once, near and far.
     [[nodiscard]] std::vector<Corner> corners() const;
 
 private:

@@ -74,7 +74,7 @@ void GridBand::find_cut_cells() {
     compared_.clear();
     const CellRecorder recorder(*this);
     relief::CellLinker linker(lines_, recorder);
-    constexpr int compared_share = 61; // one of so many cells
+    constexpr int compared_share = 61; // one cell in 61 is compared
     for (int row = 0; row < band_rows; ++row) {
         for (int column = 0; column + 1 < lines_.columns; ++column) {
             for (const relief::LinkedCell& cell : linker.link(column, row)) {

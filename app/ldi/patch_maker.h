@@ -31,7 +31,7 @@ public:
     /// Puts the patch of this eye first, then the others by their angle from it. If the eye's patch is not made yet, another one
     /// that is being made is given up; its cameras' pictures stay.
     void look_from(const glm::dvec3& eye);
-    /// Does a piece of work: about so many triangles. False once all patches are made.
+    /// Does a piece of work: about `triangles` triangles. False once all patches are made.
     bool step(std::size_t triangles = 20'000);
 
     /// Null before it is made.

@@ -235,7 +235,7 @@ void PatchBuild::finish() {
                              ? 0.0
                              : std::sqrt(roughness_.squares / static_cast<double>(roughness_.lines)) *
                                    texel_m_ / limits_.texel_m;
-    constexpr std::uint64_t finer = 4; // half the texel takes so many times the bytes
+    constexpr std::uint64_t finer = 4; // half the texel takes four times the bytes
     if (!is_refined_ && error > limits_.max_error_texels && finer * grown_bytes() <= limits_.max_bytes) {
         is_refined_ = true;
         begin_grids(0.5 * texel_m_);

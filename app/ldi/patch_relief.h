@@ -5,9 +5,10 @@
 /// Units    metres.
 /// Errors   none: a world that no eye of the patch sees makes an empty relief.
 /// Threads  one at a time; the result depends on the input alone, not on how the work was divided.
-/// Method   grids parallel to the patch's image plane and, for what is steep to it, across it, as the bake's for the directions of a
-///          prop's faces. Crossings of their lines are kept that face an eye of the patch, lie in what its window shows, and
-///          are seen by one of its cameras, or where none looks. docs/ldi.md: a patch as a relief.
+/// Method   grids parallel to the patch's image plane and, for what is steep to it, across it, as the bake's for the
+///          directions of a prop's faces. A crossing of their lines is kept if it faces an eye of the patch, lies in
+///          what its window shows, and is seen by one of its cameras or lies where no camera looks. docs/ldi.md: a
+///          patch as a relief.
 /// Source   layered depth images (Shade 1998); patches of the multi-LDI report.
 #pragma once
 
@@ -36,7 +37,7 @@ struct PatchRelief {
     glm::dvec3 box_size{1.0};
     double texel_m = 0.0; ///< at most as asked for, unless the memory did not suffice
     double error_texels =
-        0.0; ///< root mean square of the surface's distance from the relief, along the lines, of `wanted_texel_m`
+        0.0; ///< root mean square of the surface's distance from the relief along the lines, in units of PatchLimits::texel_m
 
     [[nodiscard]] bool empty() const { return relief.blocks.empty(); }
 };
@@ -58,11 +59,11 @@ public:
     PatchBuild(const TriangleWorld& world, const Hemisphere& hemisphere, CameraViews& views,
                std::size_t patch, const PatchLimits& limits);
 
-    /// Does a piece of work: about so many triangles, or a row of blocks. False once the patch is made.
+    /// Does a piece of work: about `triangles` triangles, or a row of blocks. False once the patch is made.
     bool step(std::size_t triangles);
-    /// Once `step` has returned false.
+    /// Call once `step` has returned false.
     [[nodiscard]] PatchRelief take() { return std::move(made_); }
-    /// Without the views.
+    /// Bytes of main memory, without the camera views.
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:

@@ -37,7 +37,8 @@ public:
     /// Puts the patch of this eye first. If it is not made yet, another one that is being made is given up; its cameras' pictures
     /// stay.
     void look_from(const glm::dvec3& eye);
-    /// Does a piece of work: about so many triangles, or one picture. False once all patches are made, or the memory is used up.
+    /// Does a piece of work: about `triangles` triangles, or one picture. False once all patches are made, or the
+    /// memory is used up.
     bool step(std::size_t triangles = 20'000);
 
     /// Null before it is made.

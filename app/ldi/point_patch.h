@@ -69,7 +69,7 @@ private:
     std::vector<std::uint64_t> nearest_; ///< of each pixel: nearness above, colour below
 };
 
-/// The colours of a picture's words, red in the lowest byte; as many.
+/// The colours of a picture's words, red in the lowest byte. Both spans have the same length.
 void colours_of(std::span<const std::uint64_t> words, std::span<glm::u8vec4> colours);
 
 } // namespace frustumscreen::ldi

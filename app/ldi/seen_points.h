@@ -21,7 +21,7 @@ public:
 
     /// Draws one picture. False when all are drawn.
     bool step();
-    /// The patch's points that eyes see. The last call.
+    /// Returns the patch's points that eyes see. Call it once, last.
     [[nodiscard]] PointPatch take();
     [[nodiscard]] std::uint64_t bytes() const {
         return patch_.bytes() + splatter_.bytes() + colours_.capacity() * sizeof colours_[0] +

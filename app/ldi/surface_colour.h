@@ -18,7 +18,7 @@ namespace frustumscreen::ldi {
 [[nodiscard]] glm::u8vec4 surface_colour(const TriangleWorld& world, std::uint32_t triangle,
                                          const glm::dvec3& eye, const glm::dvec3& ray);
 
-/// Not a hole of a cut-out.
+/// True if it is not a hole of a cut-out.
 [[nodiscard]] inline bool is_solid(const glm::u8vec4& colour) {
     return colour.a >= 128;
 }

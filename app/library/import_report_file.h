@@ -1,6 +1,7 @@
-/// The import report as it stands on file.
+/// The file of the import report.
 ///
-/// Threads  any. Errors: a missing file, and one that is no report, are none.
+/// Threads  any.
+/// Errors   none: a missing file, and one that is no report, give nullopt.
 #pragma once
 
 #include "app/library/import_report.h"

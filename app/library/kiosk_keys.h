@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool some_end() const;
     /// The keys that a signature is checked against today; valid until the keys change.
     [[nodiscard]] pack::PackTrust trust() const { return {trusted_, today(), request_.unsigned_packs}; }
-    /// For the next set.txt.
+    /// The keys to write into the next set.txt.
     [[nodiscard]] const std::vector<CarriedKey>& carried() const { return carried_; }
 
 private:

@@ -33,7 +33,7 @@ inline constexpr std::string_view staff_import_ending = ".staff";
 /// The line with which the importer offers that.
 [[nodiscard]] ImportedPack copy_offer();
 [[nodiscard]] bool offers_copy(const ImportedPack& line);
-/// True of the line about a signed request for the state of delivery, which waits for a button too.
+/// True for the line about a signed request for the state of delivery, which waits for a button too.
 [[nodiscard]] bool offers_reset(const ImportedPack& line);
 
 /// The lines on the stick's requests: `outcome`, and faults of the request files. `outcome`: the lines of

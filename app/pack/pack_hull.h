@@ -15,14 +15,14 @@
 
 namespace frustumscreen::pack {
 
-/// The bake keeps at most as many.
+/// The bake keeps at most this number of corners.
 inline constexpr std::size_t max_hull_corners = 1024;
 
 /// The pack must not have the section yet.
 void put_hull(const std::vector<glm::dvec3>& corners, PackDescription& pack);
 /// The eight corners of its box.
 [[nodiscard]] std::vector<glm::dvec3> corners_of_box(const PackDescription& pack);
-/// If a pack of an earlier bake lacks the section, the corners of its box.
+/// The hull's corners; those of the box if a pack of an earlier bake lacks the section.
 [[nodiscard]] Result<std::vector<glm::dvec3>> hull_of(const PackDescription& pack);
 
 /// The hull in a prop, with at most `most` corners.

@@ -1,7 +1,7 @@
 /// The section `site` of a pack (FORMAT.md): the artifact is a site, terrain and buildings, whose cells are regions of its ground.
 /// A region can be shown large in the prop; then the cells are drawn, otherwise the whole.
 ///
-/// Units    of each region: the box of its geometry, box units (PackCell::low, high).
+/// Region   the box of a cell's geometry, box units (PackCell::low, high).
 /// Errors   one line beginning with the field's place in the manifest.
 /// Threads  pure; any.
 #pragma once
@@ -34,8 +34,8 @@ void put_site(const PackSite& site, PackDescription& pack);
 struct SiteRegion {
     glm::dvec3 low{0.0}, high{0.0};
 };
-/// The regions of the cells with geometry, in their order; empty: the pack is no site. A site without such cells, whose cells move, or whose places
-/// are not in their regions, is an error.
+/// The regions of the cells with geometry, in their order; empty: the pack is no site. A site without such cells,
+/// whose cells move, or whose places are not in their regions, is an error.
 [[nodiscard]] Result<std::vector<SiteRegion>> site_regions_of(const PackDescription& pack);
 
 } // namespace frustumscreen::pack

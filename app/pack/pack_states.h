@@ -20,7 +20,8 @@
 namespace frustumscreen::pack {
 
 inline constexpr std::string_view states_section = "states";
-/// A window shows what the prop shows, and one each its states: so many windows lie on a table.
+/// At most settings::max_windows windows lie on a table: one for the artifact as the prop shows it, and one for each
+/// state.
 inline constexpr std::size_t max_states = 5;
 
 struct PackState {

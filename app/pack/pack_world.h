@@ -1,8 +1,8 @@
 /// The sections `cells` and `behaviours` of a pack: the artifact as a world, a tree of cells, and what moves them.
 ///
-/// Geometry   the pack itself holds the whole artifact at rest, as before. Each cell's geometry is a pack of its own
-///            inside this one, a part `cells/N.fspack`: its levels, reliefs and measured errors, in the cell's own box.
-///            So a reader that does not know cells shows the artifact at rest. Cells that are quicker to draw than the
+/// Geometry   the pack itself holds the whole artifact at rest. Each cell's geometry is a pack of its own inside this
+///            one, a part `cells/N.fspack`: its levels, reliefs and measured errors, in the cell's own box. So a
+///            reader that does not know cells shows the artifact at rest. Cells that are quicker to draw than the
 ///            whole are drawn at rest, too.
 /// Curves     of all behaviours are in one binary part, `behaviours/curves.bin`.
 /// Units      box, as pack.h; seconds.
@@ -56,7 +56,7 @@ struct PackWorld {
 
 /// From the manifest alone: the curves are empty.
 [[nodiscard]] Result<PackWorld> world_outline_of(const PackDescription& pack);
-/// With the curves; reads only their part and the manifest.
+/// The world with its curves; reads only their part and the manifest.
 [[nodiscard]] Result<PackWorld> load_world(const std::filesystem::path& file);
 /// A world of a pack that was read whole.
 [[nodiscard]] Result<PackWorld> world_of(const Pack& pack);

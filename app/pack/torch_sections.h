@@ -1,7 +1,7 @@
 /// The data of the section `torches`: JSON from and to PackTorches. FORMAT.md defines the fields.
 ///
 /// Parts    the section's parts in order: the pictures, the frames of each film, for each layer its textures and its
-///          reliefs. The data tells how many; so no name stands there.
+///          reliefs. The data gives the counts, so the parts need no names.
 /// Errors   one line beginning with the field's place in the manifest.
 /// Threads  pure; any.
 #pragma once

@@ -186,14 +186,15 @@ FRUSTUMSCREEN_INLINE Fragment fragment_at(const CellRow& row, const CellCorners&
 struct Columns {
     Floats first, last;
 
-    /// Those of them at which a linear function that changes by `slope` a column is not negative.
+    /// The columns among these at which a linear function that changes by `slope` a column is not negative.
     FRUSTUMSCREEN_INLINE Columns where(Floats function, Floats slope) const {
         const Floats zero = -function / slope;
         return {slope > 0.0F ? most(first, zero) : first, slope < 0.0F ? least(last, zero) : last};
     }
 };
 
-/// Those of a row of pixels that a cell's triangles cover (fragment_at), among `count`. `weights`: at the first one.
+/// The columns among the first `count` of a row of pixels that a cell's triangles cover (fragment_at). `weights`: at
+/// the first one.
 FRUSTUMSCREEN_INLINE Columns covered_columns(const CellRow& row, const Weights& weights, const Weights& step,
                                              Floats count) {
     const Columns every{Floats{}, count - 1.0F};

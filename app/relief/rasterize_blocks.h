@@ -3,7 +3,7 @@
 ///
 /// Units    nearness: 1 / t of the pixel's ray (raster_view.h), 0 without a hit; position (`place`): 1 / 4096
 ///          of a cell, column in the lower half, row in the upper.
-/// Threads  each call has its own samples: `relief_draw` may run for several rectangles at once.
+/// Threads  each call has its own samples: `rasterize` may run for several rectangles at once.
 /// SIMD     eight lanes by the compiler's vectors, for each of instructions.h. All make equal pictures, since
 ///          nothing is contracted, approximated or summed in another order.
 #pragma once

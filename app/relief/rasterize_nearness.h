@@ -2,7 +2,7 @@
 ///
 /// Frames   pixels as in raster_view.h, of a plain pinhole.
 /// Units    1 / t along the ray of each pixel's centre; 0 without a hit.
-/// Threads  pure; any. It writes the band's rows alone, whole ones.
+/// Threads  pure; any. It writes whole rows, those of the band alone.
 /// SIMD     as rasterize_blocks.h.
 /// Method   the triangles and the tests of rasterize_blocks.h; but the cells are larger than pixels here, so the lanes are pixels of
 ///          one cell in place of one pixel of eight cells.

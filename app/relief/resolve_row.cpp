@@ -40,7 +40,7 @@ private:
     const glm::u8vec4* colours_;
 };
 
-/// Those of several reliefs, each in its light.
+/// The corners' colours of several reliefs, each in its light.
 class SeveralReliefs {
 public:
     explicit SeveralReliefs(const BlockPages& reliefs)
@@ -160,8 +160,8 @@ FRUSTUMSCREEN_INLINE Met met_by(const RasterSamples& samples, int x, int y, Ints
     return {one, pixels & any_met & ~one, {one & block, one & (sum_u / of | sum_v / of << 16)}};
 }
 
-/// Pixels whose samples hit several positions; each becomes the mean light of its samples or of its hits. They are collected, so that the colours of eight samples, of any pixels, are looked up at
-/// once.
+/// Pixels whose samples hit several positions; each becomes the mean light of its samples or of its hits. They are
+/// collected, so that the colours of eight samples, of any pixels, are looked up at once.
 template <std::size_t count> class Several {
 public:
     FRUSTUMSCREEN_INLINE bool full() const { return pixels_ == max_pixels; }

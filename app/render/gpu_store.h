@@ -47,7 +47,7 @@ public:
                                          const image::Image8& texture);
     void add_layer(scene::Drawable& drawable, std::size_t layer,
                    std::shared_ptr<const std::vector<glm::u8vec4>> colours);
-    /// The next picture of a film, as large as the first; `picture` gives colours over black.
+    /// Replaces a texture by the next picture of a film, as large as the first; `picture` gives colours over black.
     void replace_picture(scene::TextureId texture, const image::Image8& picture);
     /// From now on, draws that name it show nothing.
     void release(const scene::Drawable& drawable);

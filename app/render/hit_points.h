@@ -1,6 +1,8 @@
 /// A second picture of a plan for measuring: each pixel's position on the artifact instead of its colour.
 ///
 /// One sample at the pixel's centre. Never in the exhibit's frame.
+///
+/// Threads  the render thread.
 #pragma once
 
 #include "app/image/image.h"

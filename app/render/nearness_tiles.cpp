@@ -25,7 +25,7 @@ struct InBeam {
 
 /// A beam, widened for rounding.
 struct Beam {
-    float max_square; ///< of the way
+    float max_square; ///< of the distance from the torch
     bool round;
 
     explicit Beam(const scene::TorchLight& light) : round(light.torch.beam.shape == torch::Shape::Round) {

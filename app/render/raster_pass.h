@@ -54,7 +54,8 @@ public:
     /// number of draw calls.
     int blend_points(const scene::FramePlan& plan, const ShaderCache& shaders);
 
-    /// After `paint`: which parts of what `show` shows the plan's torches light. Uploads what their light takes on the GPU.
+    /// Call it after `paint`: finds which parts of what `show` shows the plan's torches light. Uploads what their
+    /// light takes on the GPU.
     void find_lit_parts(const scene::FramePlan& plan);
     /// After `find_lit_parts`. True: call `light_here` for each torch, in order, instead of `light`.
     [[nodiscard]] bool lights_here() const { return lights_here_; }

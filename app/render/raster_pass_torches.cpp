@@ -13,8 +13,8 @@ namespace frustumscreen::render {
 
 namespace {
 
-/// A torch's draw of every relief on its face: they share one picture, in which a pixel is lit once. nullopt: the draw of another
-/// relief before it has them all.
+/// A torch's draw of every relief on its face: they share one picture, in which a pixel is lit once. nullopt: the
+/// draw of an earlier relief covers them all.
 std::optional<scene::TorchDraw> of_all_reliefs(const scene::FramePlan& plan, const scene::TorchDraw& draw) {
     const int face = plan.draws[draw.draw].face;
     scene::TorchDraw all = draw;

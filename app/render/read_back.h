@@ -1,4 +1,6 @@
 /// Reads pictures back from the GPU. For tests and the offline renderer; never in the exhibit's frame.
+///
+/// Threads  the one whose context is current.
 #pragma once
 
 #include "app/image/image.h"

@@ -35,7 +35,7 @@ struct Uniforms {
     std::array<Plane, geometry::max_face_corners> edges{}; ///< of the face; the first `edge_count`
     std::size_t edge_count = 0;
     bool round, over;
-    float max_square; ///< of the way
+    float max_square; ///< of the distance from the torch
     glm::vec4 fall;
     glm::vec2 way; ///< up to which light is full; 1 / (dark - full)
     float opacity;

@@ -31,7 +31,8 @@ struct PlainLight {
 class ReliefLight {
 public:
     ReliefLight();
-    /// On those pixels of the rectangles that lie on the face and in the beam. Both pictures are at least 8 pixels wide.
+    /// Lights those pixels of the rectangles that lie on the face and in the beam. Both pictures are at least 8
+    /// pixels wide.
     void light(const PlainLight& plain, std::span<const PixelRectangle> rectangles,
                const relief::PictureSpan<const float>& nearness,
                const relief::PictureSpan<glm::u8vec4>& codes,

@@ -22,7 +22,7 @@ namespace frustumscreen::render {
 
 class TorchPass {
 public:
-    /// Around all pixels that the plan's torches light.
+    /// The rectangle around all pixels that the plan's torches light.
     [[nodiscard]] static PixelRectangle lit_by(const scene::FramePlan& plan);
 
     /// Makes the pictures if plans may have torches.

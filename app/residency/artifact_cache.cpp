@@ -140,7 +140,7 @@ void ArtifactCache::step_once(render::GpuStore& store, const CacheRequest& reque
     const ResidencyStep next = next_step(records_, needs.items(), wants.items(), set_up_.budget_bytes);
     const bool is_seen = next.release && !release_if_unseen(store, *next.release);
     std::optional<std::size_t> load = next.load;
-    if (is_seen) { // others go first; what is needed comes all the same
+    if (is_seen) { // other items are released first; a needed item is loaded in any case
         records_[*next.release].last_shown = shows_;
         load = next_step(records_, needs.items(), {}, std::numeric_limits<std::uint64_t>::max()).load;
     }
@@ -192,7 +192,7 @@ void ArtifactCache::receive(std::size_t item, Result<ArtifactReader::Prepared> p
         loaded_[item] = std::make_unique<Loaded>(LoadedLevels(std::move(*levels)));
     } else if (auto* const page = std::get_if<PreparedPage>(&*prepared)) {
         if (this->levels(items_[item].artifact) == nullptr) {
-            return; // it went meanwhile
+            return; // the artifact was released meanwhile
         }
         loaded_[item] =
             std::make_unique<Loaded>(LoadedPage(std::move(*page), known(items_[item].artifact).plan.eyes));

@@ -82,7 +82,7 @@ public:
     /// `eye_m`: the pose and eye for the expected times of quality levels.
     void start(const scene::FrameCost& cost, const geometry::PropShape& prop, const scene::PlanView& view,
                const glm::dvec3& eye_m);
-    /// Once a frame.
+    /// Call once a frame.
     void step(render::GpuStore& store, const CacheRequest& request);
     /// True if everything shown and waited for is in memory, except for items that were left out.
     [[nodiscard]] bool has(const CacheRequest& request) const;
@@ -154,7 +154,7 @@ private:
     void step_once(render::GpuStore& store, const CacheRequest& request);
     void note_shown(const CacheRequest& request);
     void receive(std::size_t item, Result<ArtifactReader::Prepared> prepared);
-    /// Now the sizes of their textures are known.
+    /// Call once the levels are prepared, when the sizes of their textures are known.
     void expect_pages(std::size_t artifact, const PreparedArtifact& levels);
     [[nodiscard]] bool arrives(std::size_t item) const;
     void upload(render::GpuStore& store, std::span<const std::size_t> needed,

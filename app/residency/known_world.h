@@ -76,8 +76,8 @@ struct PreparedCells {
     std::vector<std::size_t> options; ///< number of levels of each of KnownWorld::drawn
     std::vector<PreparedLevel> levels;
 };
-/// `given_up`: asked between two levels; true cancels the preparation. `texels_per_m`: of the whole artifact's texture, on its surface in the
-/// prop; a region's proxy has no finer one.
+/// `given_up`: asked between two levels; true cancels the preparation. `texels_per_m`: of the whole artifact's
+/// texture, on its surface in the prop; a region's proxy has no finer one.
 [[nodiscard]] Result<PreparedCells>
 prepare_cells(const std::filesystem::path& file, const KnownWorld& known,
               const std::function<bool()>& given_up,

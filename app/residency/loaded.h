@@ -54,7 +54,7 @@ public:
     void release(render::GpuStore& store) { store.release(drawable_); }
     /// GPU memory and main memory, with its triangles' place in the frame's plans.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
-    /// It is ready.
+    /// Requires `ready()`.
     void give_to(RunCells& cells, const render::GpuStore& store) const {
         cells.give_page(page_.place, page_.level, drawable_, store);
     }

@@ -8,7 +8,8 @@ namespace frustumscreen::residency {
 
 namespace {
 
-/// A way makes room for another only if that is clearly more urgent, so that two of them do not take turns.
+/// A way of drawing is unloaded for another one only if that is clearly more urgent, so that two of them do not
+/// replace each other in turn.
 constexpr double clearly = 1.25;
 
 } // namespace
@@ -146,7 +147,7 @@ void RoomModels::give_up(const Place& place, const Error& error) {
     faults_.push_back(error.message);
 }
 
-/// Now the bytes are known.
+/// Replaces the expected bytes by the actual ones.
 void RoomModels::receive(const Place& place, Result<Item> item) {
     Entry& entry = entries_[place.model];
     const bool is_solid = place.way == entry.ways.size();

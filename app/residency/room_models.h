@@ -48,19 +48,19 @@ public:
     }
     /// Null unless the way is in memory.
     [[nodiscard]] const scene::PlacedLevel* find(std::size_t model, std::size_t way) const;
-    /// Nothing if it is unknown yet, too.
+    /// The box inside the model's solid; nothing if there is none, or if it is not known yet.
     [[nodiscard]] const std::optional<scene::BoxCorners>& solid(std::size_t model) const {
         return entries_[model].solid;
     }
 
-    /// Before the wants of a frame.
+    /// Call before the `want` calls of a frame.
     void begin_frame();
     /// `urgency`: larger is more urgent, above 0.
     void want(std::size_t model, std::size_t way, double urgency);
     void want_solid(std::size_t model, double urgency);
-    /// The picture shows it: it stays in memory.
+    /// Call for what the picture shows: it stays in memory.
     void keep(std::size_t model, std::size_t way);
-    /// After the wants: reads, uploads, unloads.
+    /// Call after these: reads, uploads and unloads.
     void go_on();
 
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }

@@ -229,7 +229,7 @@ bool RunCells::step(MonotonicTime now, double load) {
             log_load_ = load > 0.0 && std::isfinite(load) ? std::log(load) : 0.0;
             timed_ = now;
         }
-        if (leaves_ && site_) { // back from where the fade is
+        if (leaves_ && site_) { // back before the fade has ended: it continues from where it is
             const Nanoseconds fade = Nanoseconds(std::llround(1e9 * level_fade_s));
             arrives_ = now - std::max(fade - (now - *leaves_), Nanoseconds(0));
         }

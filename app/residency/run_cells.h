@@ -59,7 +59,8 @@ public:
 
     /// Sets the drawable of the level with index `place`, which is in the store.
     void give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store);
-    /// Gives every cell's levels and reliefs those of `layer.cells`. All are given.
+    /// Gives the cells' levels and reliefs the textures and colours of `layer.cells`. All levels must have been
+    /// given.
     [[nodiscard]] Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer);
     /// The artifact's states, which windows show. `world`: with its curves.
     void add_states(const pack::PackWorld& world, std::span<const pack::PackState> states);
@@ -69,7 +70,7 @@ public:
     [[nodiscard]] std::span<const std::size_t> wanted_pages() const { return wanted_; }
     /// Bytes of the texture that a page brings.
     [[nodiscard]] std::uint64_t page_texture_bytes(std::size_t place) const;
-    /// A page is in the store.
+    /// Call when a page is in the store.
     void give_page(std::size_t place, const PreparedLevel& level, const scene::Drawable& drawable,
                    const render::GpuStore& store);
     /// Stops drawing a page, by a fade if it is visible. True: neither the prop nor a window shows it, so it may leave the store; then
@@ -83,7 +84,7 @@ public:
     [[nodiscard]] std::uint64_t bytes() const;
     [[nodiscard]] const std::vector<LevelUse>& uses() const { return uses_; }
 
-    /// Times of frames on this GPU. Without, every cell is drawn at its best.
+    /// Sets the times of frames on this GPU. Without this call every cell is drawn at its best.
     void start(const scene::FrameCost& cost);
     /// Call when the artifact comes on show: everything returns to rest.
     void enter(MonotonicTime now) { player_.end_all(now); }
@@ -110,8 +111,9 @@ public:
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };
-    /// Adds all of the site as the prop shows it in this view, each region by its coarsest level that is good enough and there; to another
-    /// level it fades as in the prop. `seen`: of the latest call for this window, which `parts` were made by; empty: it is the first.
+    /// Adds the whole site as the prop shows it in this view, each region by its coarsest level that is good enough
+    /// and in the store. To another level it fades as in the prop. `seen`: as the latest call for this window left
+    /// it, when it made `parts`; empty at the first call.
     void show_part(MonotonicTime now, const world::SiteView& view, std::vector<SeenRegion>& seen,
                    std::vector<scene::Part>& parts) const;
     /// Marks a region of the miniature for the next frames; none: no mark.
@@ -184,7 +186,7 @@ private:
         bool is_relief_alone = false; ///< it has rasterized reliefs and nothing else
         double pixels = 0.0;          ///< in this frame's picture of one eye
         std::size_t wanted = 0;       ///< index into its options
-        std::size_t shown = 0;        ///< the same, and there
+        std::size_t shown = 0;        ///< index of the option that is drawn, which is in the store
         std::optional<std::size_t> coming;
         MonotonicTime fade_start;
     };
@@ -192,14 +194,15 @@ private:
     [[nodiscard]] std::optional<std::size_t> window_option(std::size_t cell, bool is_mesh) const;
     [[nodiscard]] scene::CellOption option_of(const Option& option, double pixels, double all_pixels,
                                               int samples) const;
-    /// Sets the time of one cell's options, `begin` to `end`, to infinity, except of the quickest one within the tolerance and of
-    /// those that are quicker by a larger error.
+    /// Sets the time of one cell's options, `begin` to `end`, to infinity, except of the quickest one within the
+    /// tolerance and of those that are quicker with a larger error.
     void offer_enough(std::size_t begin, std::size_t end, std::vector<scene::CellOption>& offered) const;
     void choose(MonotonicTime now, int samples, const geometry::PropShape& prop, const scene::PlanView& view);
     [[nodiscard]] std::size_t end_of(std::size_t cell) const {
         return cell + 1 < cells_.size() ? cells_[cell + 1].first : options_.size();
     }
-    /// The option drawn of a cell in place of the wanted one: the same if it is there.
+    /// The option to draw of a cell: the wanted one if it can be shown, otherwise a finer one, otherwise the next
+    /// coarser one.
     [[nodiscard]] std::size_t nearest_there(const Cell& cell) const;
     /// False: at this zoom the proxy, or the page of the same level, is drawn instead.
     [[nodiscard]] static bool is_sharp(const Option& option, double zoom) {
@@ -210,12 +213,12 @@ private:
     }
     /// The quickest option of a cell that is good enough at a zoom.
     [[nodiscard]] std::size_t option_at(std::size_t cell, double zoom) const;
-    /// The first of it and the coarser ones that is there and stays.
+    /// From `option_at` on towards coarser ones, the first option that is in the store and stays there.
     [[nodiscard]] std::size_t option_in_window(std::size_t cell, double zoom) const;
     /// Sets `wanted_`.
     void want_pages();
     void want_page(std::size_t place);
-    /// Those of the regions in the prop and about its size around it, nearest first.
+    /// Wants the pages of the regions in the prop and within about its size around it, nearest first.
     void want_pages_around(const world::SiteView& view);
     /// A cell's pose in this frame, in the site's view.
     [[nodiscard]] world::CellPose pose_of(const Cell& cell) const;

@@ -104,7 +104,7 @@ public:
     /// Sets the drawable of the level with index `place`, which is in the store.
     void give(std::size_t place, const scene::Drawable& drawable, const render::GpuStore& store);
 
-    /// Gives every level the layer's textures, every relief its colours. All levels are given.
+    /// Gives the levels the layer's textures, and the reliefs its colours. All levels must have been given.
     [[nodiscard]] Result<void> add_layer(render::GpuStore& store, const ReadLayer& layer);
 
     /// Prepares and uploads all levels at once. `technique`: as requested. `pack` need not outlive the call.

@@ -65,16 +65,16 @@ public:
     TorchContents(const TorchContents&) = delete;
     TorchContents& operator=(const TorchContents&) = delete;
 
-    /// Once a frame. `artifact`: on show; contents of another one are released. `layers`: wanted for themselves.
+    /// Call once a frame. `artifact`: on show; contents of another one are released. `layers`: wanted for themselves.
     void step(render::GpuStore& store, std::size_t artifact, std::span<const WantedContent> wanted,
               std::span<const std::size_t> layers = {});
-    /// A layer that has been read, once; none: no new one.
+    /// Returns a layer that has been read, once; none: there is no new one.
     [[nodiscard]] std::optional<ReadLayer> take_layer();
-    /// The layer is in the store, or why it is not.
+    /// Reports that the layer is in the store, or why it is not.
     void note_layer(std::size_t layer, const Result<void>& uploaded);
     void release(render::GpuStore& store);
 
-    /// Whose contents are here.
+    /// The artifact whose contents are held; nullopt: none.
     [[nodiscard]] const std::optional<std::size_t>& artifact() const { return artifact_; }
     [[nodiscard]] const torch::Content* find(std::size_t artifact, std::size_t content) const;
     /// A content of the artifact on show.
@@ -84,7 +84,7 @@ public:
         std::uint32_t version = 0; ///< of the picture
     };
     [[nodiscard]] Shown shown(std::size_t content) const;
-    /// In memory, of both kinds.
+    /// Bytes of main memory and GPU memory.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
 private:
@@ -118,7 +118,7 @@ private:
 
     [[nodiscard]] static std::size_t item_of(std::size_t artifact, const Part& part);
     [[nodiscard]] static std::pair<std::size_t, Part> part_of(std::size_t item);
-    /// On the reader's thread.
+    /// Called on the reader's thread.
     [[nodiscard]] Result<Read> read(std::size_t item);
     void receive(render::GpuStore& store, std::size_t item, Result<Read> read);
     [[nodiscard]] Result<void> upload(render::GpuStore& store, const Part& part, Read read);

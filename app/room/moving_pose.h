@@ -1,5 +1,6 @@
-/// A rotation between two, and a pose whose source may change: what a thing that follows a pose needs so that it never jumps.
+/// Interpolates between two rotations, and follows a pose whose source may change without ever jumping.
 ///
+/// Frames   any, the same one in all calls; metres.
 /// Threads  values; one caller. Nothing allocates.
 /// Errors   none: every finite input gives a finite pose.
 #pragma once
@@ -14,7 +15,8 @@ namespace frustumscreen::room {
 /// The one of `q` and -q that is nearer to `near_to`.
 [[nodiscard]] glm::dquat same_side(const glm::dquat& q, const glm::dquat& near_to);
 
-/// From `a` (share 0) to `b` (share 1) about one axis, at an even speed, the way that their signs give: up to a whole turn.
+/// From `a` (share 0) to `b` (share 1) about one axis, at an even speed; the quaternions' signs decide which way
+/// round, up to a whole turn.
 [[nodiscard]] glm::dquat turned_between(const glm::dquat& a, const glm::dquat& b, double share);
 
 /// A pose from one of two sources. When the source changes, the pose glides from where it was to where the new source has it.

@@ -127,7 +127,8 @@ bool Taking::belongs_in_prop(const Body& body, std::size_t index, const TakingIn
                                 handed_over(body.way.at(input.now, rate_per_s)) > 0.0);
 }
 
-/// Called only where the turn of the place does not matter, or is all that does.
+/// Fixes the rotations between which the body turns on its way. Called only while the body is in its place or in the
+/// prop, so that its pose does not jump.
 void Taking::anchor(Body& body, MonotonicTime now) const {
     body.anchor_s = seconds(now);
     body.goal = same_side(table_from_prop_.pose().rotation,

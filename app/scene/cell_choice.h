@@ -38,8 +38,8 @@ public:
     explicit CellChoice(std::span<const std::size_t> options);
 
     /// `options`: one list after another, as many as the constructor was told. `budget_us`: for all cells together;
-    /// if even the cheapest ones exceed it, these are chosen, or some that are at most a tenth dearer. Returns an index into each cell's options, valid until
-    /// the next call.
+    /// if even the cheapest ones exceed it, these are chosen, or some that are at most a tenth dearer. Returns an
+    /// index into each cell's options, valid until the next call.
     [[nodiscard]] std::span<const std::size_t> choose(MonotonicTime now, std::span<const CellOption> options,
                                                       double budget_us);
 

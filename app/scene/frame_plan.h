@@ -62,8 +62,8 @@ struct PlacedLevel {
     /// Drawn instead of the triangles, rasterized on the processor: points in the prop's frame, around which the box lies. They
     /// live as long as the frame's plan.
     const ldi::PointPatch* points = nullptr;
-    /// It reaches out of the prop: what lies before a face is cut off there, behind the faces it goes on. Only for triangles; if
-    /// one part does, all parts of a frame count as such.
+    /// The level reaches out of the prop: it is cut off at each face, and what lies behind the faces is drawn. Only
+    /// for triangles; if one part does, all parts of a frame count as such.
     bool beyond = false;
 
     [[nodiscard]] bool is_empty() const { return !triangles && !relief && points == nullptr; }
@@ -109,7 +109,8 @@ struct PlacedWindow {
     double brightness = 1.0; ///< as PlanView::brightness
     /// Points that eyes see of the parts, drawn in their place where they are ready (window_patches.h); null: none are.
     const WindowPatches* patches = nullptr;
-    /// They light the parts, table frame; then no points are drawn. Only in a plan whose windows have space for them.
+    /// Torches that light the parts, table frame; then no points are drawn. Only in a plan whose windows have space
+    /// for them.
     std::span<const PlacedTorch> torches = {};
 };
 
@@ -140,9 +141,11 @@ struct PlanView {
     EyePicture picture = {};
     /// Table frame. The eyes that decide together how far the artifact dims; empty: `eyes_m`.
     std::span<const glm::dvec3> dimming_eyes_m = {};
-    /// They light what is in the prop, in this order; at most torch::max_torches. Only in a plan that has space for them.
+    /// Torches that light what is in the prop, in this order; at most torch::max_torches. Only in a plan that has
+    /// space for them.
     std::span<const PlacedTorch> torches = {};
-    /// Only in a plan that has space for them. The prop's light compensation and eyes are theirs too; torches are their own.
+    /// Only in a plan that has space for them. They share the prop's light compensation and eyes, and have torches of
+    /// their own.
     std::span<const PlacedWindow> windows = {};
 };
 /// Enough for a page of pictures with their titles, the ring around the prop, a hotspot, the zone's frame,
@@ -276,8 +279,8 @@ struct FramePlan {
     std::vector<glm::vec4> cover_clip;
 };
 
-/// A plan with space for every face of `parts` parts that have `indices` indices together. A plan for torches or windows takes
-/// some more room (torch_plan.h, window_plan.h); without it none are planned.
+/// A plan with space for every face of `parts` parts that have `indices` indices together. A plan for torches or
+/// windows takes some more space (torch_plan.h, window_plan.h); without it none are planned.
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, std::size_t indices, std::size_t parts);
 [[nodiscard]] FramePlan make_plan(const geometry::PropShape& prop, const PlacedLevel& artifact);
 

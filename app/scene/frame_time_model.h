@@ -79,7 +79,7 @@ public:
 
     explicit FrameTimeModel(const std::vector<QualityLevelTime>& quality_levels);
 
-    /// Takes the time of a frame drawn at `quality level`. Returns false if `ms` is not a time; then nothing changes.
+    /// Takes the time of a frame drawn at `quality_level`. Returns false if `ms` is not a time; then nothing changes.
     bool observe(std::size_t quality_level, const FrameWork& work, double ms, MonotonicTime now);
 
     /// The time of the next frames, if their work is that of the latest ones.

@@ -106,11 +106,11 @@ public:
     [[nodiscard]] const QualityLevel& quality_level() const { return quality_levels_[current_]; }
     [[nodiscard]] double expected_ms() const { return model_.expected_ms(current_); }
 
-    /// A frame of `quality level()` took `ms`; afterwards `quality level()` may be another.
+    /// Call after a frame of `quality_level()`, which took `ms`; afterwards `quality_level()` may be another.
     void observe(MonotonicTime now, const FrameWork& work, double ms);
 
-    /// The artifact comes on: chooses the level for the GPU's present load. The change is invisible, so it
-    /// does not wait.
+    /// Call when the artifact comes on show: chooses the level for the GPU's present load. The change is invisible,
+    /// so it does not wait.
     void enter(MonotonicTime now, double load);
     [[nodiscard]] double load() const { return model_.load(); }
 

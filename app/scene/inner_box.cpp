@@ -18,7 +18,8 @@ namespace frustumscreen::scene {
 namespace {
 
 constexpr int cells_along = 32;
-constexpr int turns = 6; ///< by 15 degrees: what a bake has turned to its best side may stand across the axes
+constexpr int turns =
+    6; ///< by 15 degrees: an artifact that a bake has turned to its best side may stand across the axes
 using Triangle = std::array<glm::dvec3, 3>;
 
 /// Equal positions get equal numbers.

@@ -2,8 +2,8 @@
 ///
 /// Closed   each edge is shared by triangles that run along it in opposite directions; otherwise there is no box. The solid is
 ///          where the surface winds around a point, seen from outside counter-clockwise.
-/// Method   of a grid of 32 x 32 x 32 cells those are solid that no triangle touches and whose middle the surface winds
-///          around; the box is the largest one of solid cells, in the best of six grids that are turned about z.
+/// Method   a grid of 32 x 32 x 32 cells. A cell is solid if no triangle touches it and the surface winds around its
+///          middle. The box is the largest one of solid cells, in the best of six grids that are turned about z.
 ///
 /// Frames   that of the positions.
 /// Threads  pure; any. Never in a frame: it takes some milliseconds for ten thousand triangles.

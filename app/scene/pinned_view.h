@@ -57,13 +57,13 @@ struct PinnedView {
     double scale = 1.0;               ///< of it
 };
 [[nodiscard]] std::optional<PinnedView> pin_view(const PinRequest& request);
-/// As above, into a view that may have been used before; after false it is worth nothing.
+/// As above, into a view that may have been used before; after false its contents are undefined.
 [[nodiscard]] bool pin_view(const PinRequest& request, PinnedView& view);
 
 /// The face of a window: a rectangle that looks up.
 [[nodiscard]] geometry::PropShape window_surface(double width_m, double depth_m);
 
-/// The parts of a prop's world as they stand behind a window; each may show on all of it.
+/// The parts of a prop's world as they stand behind a window; each may show on the whole window.
 void move_behind(const glm::dmat4& window_from_prop, std::span<const Part> parts, std::vector<Part>& moved);
 /// A torch on the prop's world as it lights that world behind a window that now stands at `table_from_window`. In `torch` the pose is
 /// that in the prop's frame, in the result that on the table.

@@ -22,7 +22,8 @@
 
 namespace frustumscreen::scene {
 
-/// The corners of a parallelepiped: bit 0 of the index tells the two ends of its first edge apart, bit 1 of its second, bit 2 of its third.
+/// The corners of a parallelepiped: bit 0 of the index tells the two ends of its first edge apart, bit 1 those of its
+/// second, bit 2 those of its third.
 using BoxCorners = std::array<glm::dvec3, 8>;
 
 class RoomCulling {

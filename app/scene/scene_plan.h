@@ -84,8 +84,8 @@ struct SceneRequest {
 
 struct ScenePlan {
     std::vector<QualityLevel> quality_levels; ///< the quality levels of the artifact, best first
-    std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `quality levels` first
-    std::vector<pack::ReliefOutline> reliefs; ///< of the pack, to read: those of `quality levels`
+    std::vector<std::uint32_t> levels; ///< of the pack, to read and upload; those of `quality_levels` first
+    std::vector<pack::ReliefOutline> reliefs; ///< of the pack, to read: those of `quality_levels`
     /// The level of the pack for exposure_of: the first of `levels`. If only reliefs are drawn, it is the pack's
     /// default level, which is read for this purpose but not uploaded, so that meshes and reliefs of one
     /// artifact are equally bright.

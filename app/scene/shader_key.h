@@ -72,11 +72,11 @@ struct RenderNeeds {
 [[nodiscard]] RenderNeeds united(const RenderNeeds& a, const RenderNeeds& b);
 /// The shaders that a world of cells needs beyond its artifact's: a light for each, and depth between relief and polygons.
 [[nodiscard]] RenderNeeds with_cells(RenderNeeds needs);
-/// The shaders of a torch with such a content, beyond those of the surfaces that it lights (torch::parts_of).
+/// The shaders of a torch with content of these parts (torch::parts_of), beyond those of the surfaces that it lights.
 [[nodiscard]] RenderNeeds with_torch(RenderNeeds needs, std::uint8_t content);
 /// The shaders of torches with any content: the usual ones have shaders of their own.
 [[nodiscard]] RenderNeeds with_torches(RenderNeeds needs);
-/// Shows again, in a torch's light, what `key` has shown.
+/// The shader that draws again, in a torch's light, what `key` has drawn.
 [[nodiscard]] ShaderKey torch_of(ShaderKey key, std::uint8_t content);
 /// Every shader that a renderer with these needs compiles: those of the draws and the renderer's own.
 [[nodiscard]] std::set<ShaderKey> shaders_of(const RenderNeeds& needs);

@@ -14,7 +14,7 @@
 
 namespace frustumscreen::scene {
 
-/// Makes room in a plan for torches that light `parts` parts of `indices` indices together.
+/// Makes space in a plan for torches that light `parts` parts of `indices` indices together.
 void make_torch_space(FramePlan& plan, std::size_t faces, std::size_t indices, std::size_t parts);
 
 /// True if the depth of all that a torch's own picture shows is found on the processor: polygons without holes, and reliefs that

@@ -29,8 +29,8 @@ class PointFade {
 public:
     static constexpr double fade_s = 0.5;
 
-    /// `ready`: as points_for. `share`: so much of a whole fade passes, 1 or more: all of it. One patch follows another without a fade,
-    /// because neighbours are alike.
+    /// `ready`: as points_for. `share`: the part of a whole fade that passes in this step; 1 or more ends the fade.
+    /// One patch follows another without a fade, because neighbours are alike.
     void step(const ldi::PointPatch* ready, double share);
     [[nodiscard]] const ShownPoints& shown() const { return shown_; }
 

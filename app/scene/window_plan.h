@@ -15,8 +15,8 @@
 
 namespace frustumscreen::scene {
 
-/// Makes room in a plan for `windows` windows of at most `parts` parts that have at most `indices` indices together. `torches`: that may
-/// be lit.
+/// Makes space in a plan for `windows` windows of at most `parts` parts that have at most `indices` indices together.
+/// `torches`: that may be lit.
 void make_window_space(FramePlan& plan, std::size_t windows, std::size_t indices, std::size_t parts,
                        bool torches = false);
 

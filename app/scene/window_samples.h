@@ -22,7 +22,7 @@ public:
 
     explicit WindowSamples(double deadline_ms) : deadline_ms_(deadline_ms) {}
 
-    /// A frame took `ms`; `shows`: a window was in it.
+    /// Call after a frame, which took `ms`; `shows`: a window was in it.
     void record(MonotonicTime now, double ms, bool shows);
     /// True if windows take one sample a pixel.
     [[nodiscard]] bool few() const { return few_; }

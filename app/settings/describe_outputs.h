@@ -162,7 +162,7 @@ template <typename Fields> void prop_file_settings(Fields& fields, auto& prop) {
     }
 }
 
-/// Keys that are not of this kind of prop.
+/// Refuses the keys that are not of this kind of prop.
 void refuse_other_prop_keys(auto& fields, bool solid) {
     for (const std::string_view key : {"base_m", "top_m", "height_m"}) {
         fields.require(

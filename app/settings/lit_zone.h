@@ -1,6 +1,6 @@
 /// The zone of the table in which every face of the prop that the visitor sees is lit.
 ///
-/// A face is lit if the projector's lens lies above the face's plane, by at least `min_sine` times its
+/// A face is lit if the projector's lens lies above the face's plane, by at least `min_sine_of_light` times its
 /// distance from the prop (below that the light only grazes the face), and all four corners lie in the picture. The
 /// prop is convex, so no face shades another.
 ///

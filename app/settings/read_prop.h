@@ -9,7 +9,8 @@
 
 namespace frustumscreen::settings {
 
-/// Fills in `shape`, `notes` and the size of a solid; leaves a frustum, a cube, and all after an error as they are.
+/// Fills in `shape`, `notes` and the size of a solid. Leaves a frustum or a cube unchanged, and any prop after an
+/// error.
 void read_prop(ReadState& state, PropSettings& prop);
 
 } // namespace frustumscreen::settings

@@ -204,7 +204,7 @@ struct CameraSettings {
     std::string device = "any";
     int width = 1280, height = 720;
     double rate_hz = 30.0;
-    /// 0, below 0 and 0 mean the camera's own value.
+    /// 0 for the exposure, a number below 0 for the gain and 0 for the white balance mean the camera's own value.
     double exposure_ms = 0.0;
     int gain = -1;
     int white_balance_k = 0;

@@ -11,10 +11,10 @@
 
 namespace frustumscreen::settings {
 
-/// `text`: of a kiosk.toml, right or wrong, in TOML. The order of its tables is that of their names.
-/// For its makers: without the museum's keys, and with six digits of each number.
+/// The text for the exhibit's makers: without the museum's keys, and with six digits of each number. `text`: that
+/// of a kiosk.toml, right or wrong, in TOML. The tables are in the order of their names.
 [[nodiscard]] Result<std::string> settings_to_share(std::string_view text);
-/// For another kiosk: the same values.
+/// The text for another kiosk: all values, exactly.
 [[nodiscard]] Result<std::string> settings_without_comments(std::string_view text);
 
 } // namespace frustumscreen::settings

@@ -39,7 +39,7 @@ namespace frustumscreen::show {
 
 struct ArtifactShowOptions {
     std::vector<std::filesystem::path> packs;
-    std::string technique = "auto"; ///< "auto": the governor's choice; otherwise see `level_of`
+    std::string technique = "auto"; ///< "auto": the governor's choice; otherwise see scene::quality_level_of
     int samples =
         render::default_samples; ///< for each pixel; the render target holds them wherever the prop stands
     unsigned cull_kinds = scene::AllCullKinds;
@@ -152,7 +152,7 @@ private:
     /// Starts and ends behaviours and moves the cells. True: the cells of the artifact on show are drawn.
     [[nodiscard]] bool move_cells(MonotonicTime now, const exhibit::Presentation& presentation,
                                   residency::RunLevels* levels, residency::RunCells* cells);
-    /// The part of a site that the prop shows, and the mark on its miniature.
+    /// Sets the part of a site that the prop shows, and the mark on its miniature.
     void show_site(const exhibit::Presentation& presentation, residency::RunCells& cells) const;
     /// Places the map of a site while the prop shows a part of it.
     void place_site_map(const exhibit::Presentation& presentation);

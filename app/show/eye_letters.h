@@ -19,7 +19,7 @@ public:
     /// `pattern`: without the prop's edges.
     EyeLetters(const EyeParts& eyes, const image::Image8& pattern, const typography::Typesetter& typesetter);
 
-    /// Sets the letters below what `picture` has in their places.
+    /// Draws the letters below the contents that `picture` has in their places.
     void put(const image::Image8& picture);
     /// Shows them on that picture.
     void show(unsigned framebuffer);

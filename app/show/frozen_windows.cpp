@@ -14,7 +14,7 @@ namespace {
 /// Time of a window by patches for each sample of its picture, measured on one core of a virtual machine: more than half of
 /// it warps and draws the points, of which there are about three a sample; the rest averages the samples.
 constexpr double patch_ms_per_sample = 2.3e-5;
-/// Patches that save less are not worth that outlines grow by half a pixel.
+/// Patches must be this many times quicker than the levels, because they make outlines grow by half a pixel.
 constexpr double min_gain = 2.0;
 /// The eye sees about half of a level's triangles.
 constexpr double seen_share = 0.5;

@@ -6,9 +6,10 @@
 /// Fade     from its parts to points and back, an eye's picture changes evenly over `fade_s`, counted by the times of its frames. With
 ///          `waits` it changes at once.
 /// Frames   table T; window: as scene::PinnedView.
-/// Threads  the thread that draws; it never waits for the other one, but with `waits` it makes all patches itself. Without `waits` it
-///          allocates only in `make_space`: there are jobs for twice as many windows as may lie on the table. While all of them are
-///          taken, because the other thread has not freed those of earlier windows yet, a new window waits for one, drawn by its parts.
+/// Threads  the render thread; it never waits for the worker thread, but with `waits` it makes all patches itself.
+///          Without `waits` it allocates only in `make_space`: there are jobs for twice as many windows as may lie on
+///          the table. While all of them are taken, because the worker thread has not freed those of earlier windows
+///          yet, a new window waits for one, drawn by its parts.
 /// Memory   for each window PatchJobSetUp::max_bytes, and the world while patches are made.
 /// Errors   none: a pack that cannot be read again has no patches.
 #pragma once
@@ -62,16 +63,17 @@ public:
     void set_cost(const scene::FrameCost& cost) { cost_ = cost; }
     /// Begins the window's patches, in place of those that it had.
     void freeze(const FrozenWindow& window);
-    /// Takes the window's patches away.
+    /// Forgets the window's patches.
     void forget(std::uint32_t number);
-    /// Begins with this world; `freeze` without the choice.
+    /// As `freeze`, but makes patches of this world without the choice.
     void begin(std::uint32_t number, PatchJobSetUp set_up);
     /// The patches that are ready for a window, which these eyes look at, window's frame; null: it has none. `fade_s`: time of a fade
     /// from its parts to points or back.
     [[nodiscard]] const scene::WindowPatches* look(std::uint32_t number, std::span<const glm::dvec3> eyes,
                                                    MonotonicTime now,
                                                    double fade_s = scene::PointFade::fade_s);
-    /// Once a frame, after all `look`: forgets windows that are not among these, and gives the thread its work.
+    /// Call once a frame, after all `look`: forgets windows that are not among these, and gives the worker thread its
+    /// work.
     void step(std::span<const exhibit::PresentedWindow> windows);
 
     [[nodiscard]] std::size_t size() const { return windows_.size(); }

@@ -45,8 +45,9 @@ public:
     [[nodiscard]] OfflinePicture draw(const geometry::RigidTransform& table_from_prop,
                                       std::span<const glm::dvec3> eyes_m, double seconds = 0.0,
                                       std::span<const scene::PlacedTorch> torches = {});
-    /// Pins what the eye sees through the prop at this pose as a window; `draw` draws it from now on. The artifact in it stays
-    /// as it is at that time, in the light of `torches`, table frame. At most OfflineOptions::windows. False: the eye is not above the table.
+    /// Pins what the eye sees through the prop at this pose as a window; `draw` draws it from then on. The artifact
+    /// in it stays as it is at that time, in the light of `torches`, table frame. At most OfflineOptions::windows.
+    /// False: the eye is not above the table.
     [[nodiscard]] bool pin(const scene::WindowPlace& place, const geometry::RigidTransform& table_from_prop,
                            const glm::dvec3& eye_m, double seconds = 0.0,
                            std::span<const scene::PlacedTorch> torches = {});
@@ -88,7 +89,7 @@ private:
     [[nodiscard]] Result<void> take_torch(const OfflineScene& scene);
     /// Makes all patches of a window.
     [[nodiscard]] std::unique_ptr<PatchJob> patches_of(const Window& window, const glm::dvec3& eye_m) const;
-    /// The film's frame at a time since its content began.
+    /// Shows the film's frame at this time since its content began.
     void show_film(double seconds);
     void pose_cells(double seconds);
     void draw_once(std::span<const scene::PlanView> views);

@@ -1,9 +1,9 @@
-/// The patches of one frozen window: one thread makes them, another one draws those that are made. A job may serve one window after
-/// the other.
+/// The patches of one frozen window: the worker thread (patch_worker.h) makes them, the render thread draws those
+/// that are made. A job may serve one window after the other.
 ///
 /// Frames   window (scene/window_patches.h).
-/// Threads  `step`: the thread that makes, which frees all that it made. Everything else: the thread that
-///          draws; it never waits and allocates nothing.
+/// Threads  `step`: the worker thread, which frees all that it made. Everything else: the render thread, which never
+///          waits and allocates nothing.
 /// Memory   until all patches are made, the world's triangles and the cameras' pictures; then the patches, up to `max_bytes` of
 ///          `PatchJobSetUp`.
 /// Errors   a world that cannot be read has no patches: its window is drawn as before.
@@ -31,7 +31,7 @@ struct LevelInWindow {
     glm::dmat4 window_from_box{1.0};
     double samples_per_m = 1.0; ///< as PatchView::samples_per_m
 };
-/// Makes a window's world: slow; called on the thread that makes.
+/// Makes a window's world: slow; called on the worker thread.
 using WorldMaker = std::function<Result<FrozenWorld>(const LevelInWindow&)>;
 
 struct PatchJobSetUp {
@@ -46,10 +46,10 @@ struct PatchJobSetUp {
 
 class PatchJob {
 public:
-    /// True: `begin` may be called.
+    /// True if `begin` may be called.
     [[nodiscard]] bool is_free() const { return state_.load(std::memory_order_acquire) == State::Free; }
     void begin(PatchJobSetUp set_up);
-    /// Its patches are not drawn any more. The thread that makes frees the job.
+    /// Its patches are not drawn from now on. The worker thread frees the job.
     void leave() { state_.store(State::Left, std::memory_order_release); }
 
     /// Puts the eye's patch first.
@@ -59,12 +59,12 @@ public:
     /// Sets the eyes that look, at most two, and the points that each is shown.
     void show(std::span<const scene::WindowPatches::OfEye> eyes);
     [[nodiscard]] const scene::WindowPatches& patches() const { return patches_; }
-    /// All that can be made is made. True on either thread.
+    /// True if all that can be made is made; on either thread.
     [[nodiscard]] bool is_done() const { return state_.load(std::memory_order_acquire) == State::Done; }
-    /// The patch that is looked at is made, or none can be made any more.
+    /// True if the patch that is looked at is made, or none can be made any more.
     [[nodiscard]] bool has_first() const;
     [[nodiscard]] bool is_left() const { return state_.load(std::memory_order_acquire) == State::Left; }
-    /// `step` has something to do.
+    /// True if `step` has something to do.
     [[nodiscard]] bool needs_work() const;
 
     /// Does a piece of the work.
@@ -74,7 +74,7 @@ private:
     enum class State : std::uint8_t { Free, Begun, Done, Left };
     void make_world();
     void hand_over();
-    /// Unless it was left meanwhile.
+    /// Marks the job as done, unless it was left in the meantime.
     void end();
     void free();
 
@@ -82,11 +82,11 @@ private:
     PatchJobSetUp set_up_;
     scene::WindowPatches patches_{.hemisphere = ldi::Hemisphere(1.0), .box = {}};
     std::atomic<std::size_t> looked_at_{0}; ///< a patch
-    /// Written once each by the thread that makes, before its flag is set.
+    /// Written once each by the worker thread, before its flag is set.
     std::array<std::shared_ptr<const ldi::PointPatch>, ldi::patch_count> made_;
     std::array<std::atomic<bool>, ldi::patch_count> is_made_{};
     geometry::Box box_{};
-    std::optional<ldi::PointMaker> maker_; ///< of the thread that makes
+    std::optional<ldi::PointMaker> maker_; ///< used by the worker thread alone
 };
 
 } // namespace frustumscreen::show

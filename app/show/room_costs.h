@@ -21,7 +21,8 @@ inline constexpr scene::FrameCost usual_room_cost{
     .raster = {.fixed_ms = 2.0, .ms_per_triangle = 4e-5, .ms_per_sample = 2e-5},
     .on_gpu = {}};
 
-/// Draws some of the model's ways before the screen, into a picture of its own, for up to a second.
+/// Draws some of the model's levels and reliefs in front of the screen, into a picture of its own, for up to a
+/// second.
 [[nodiscard]] Result<scene::FrameCost> measure_room_cost(const residency::KnownModel& model,
                                                          const scene::FlatScreen& screen, int samples,
                                                          render::Renderer& renderer);

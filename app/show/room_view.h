@@ -47,12 +47,12 @@ public:
               const SolidOf& solid_of, bool culls = true);
 
     [[nodiscard]] const std::vector<PlacedObject>& objects() const { return objects_; }
-    /// Those that are seen, in the order of the room.
+    /// The objects that are seen, in the order of the room.
     [[nodiscard]] const std::vector<std::uint32_t>& seen() const { return seen_; }
 
 private:
     static constexpr std::size_t max_solids = 64;
-    /// One that may hide others.
+    /// A solid that may hide other objects.
     struct Solid {
         double size_rad = 0.0;
         scene::BoxCorners corners{};

@@ -33,9 +33,10 @@ namespace frustumscreen::show {
 /// A picture of the room, as RoomShow draws it.
 struct RoomFrame {
     double seconds = 0.0;
-    double light = 1.0;                             ///< factor of linear light, 0..1
-    double budget_us = 0.0;                         ///< that the projector's picture has left
-    std::optional<double> before_ms = std::nullopt; ///< the picture before took so long until it was complete
+    double light = 1.0;     ///< factor of linear light, 0..1
+    double budget_us = 0.0; ///< that the projector's picture has left
+    std::optional<double> before_ms =
+        std::nullopt; ///< time that the previous picture took until it was complete
     std::span<const room::TakenPose> taken = {};
     std::span<const glm::dvec3> eyes_m = {};
     render::RenderTarget target;
@@ -74,7 +75,7 @@ public:
     ScreenOutput& operator=(const ScreenOutput&) = delete;
 
     void step(const ScreenFrame& frame);
-    /// Once a second.
+    /// Adds the screen's state to `status`; call once a second.
     void tell(RunStatus& status);
 
     /// Pictures to keep, as StillTaker.
@@ -100,7 +101,7 @@ private:
     std::optional<StillTaker> stills_;
     service::WatchdogPolicy watch_;
     service::Health health_ = service::Health::Well;
-    std::optional<double> before_ms_;        ///< the picture before took so long
+    std::optional<double> before_ms_;        ///< time that the previous picture took until it was complete
     std::optional<MonotonicTime> presented_; ///< none: not since it was opened, or since sleep
     MonotonicTime tried_;
     bool room_failed_ = false;

@@ -125,7 +125,7 @@ public:
     [[nodiscard]] virtual std::span<const ArtifactInProp> in_prop() const { return {}; }
     /// The triangles that hide an artifact's hotspots; none while it is not loaded.
     [[nodiscard]] virtual exhibit::ArtifactTriangles triangles(std::size_t /*artifact*/) const { return {}; }
-    /// Null: silent.
+    /// The recording to play for a sentence or a description; null: silent.
     [[nodiscard]] virtual residency::SharedRecording recording(const exhibit::WordIndex& /*word*/) const {
         return nullptr;
     }

@@ -75,7 +75,7 @@ bool has_layer(const residency::KnownArtifact& known) {
                        [](const pack::PackState& state) { return state.layer.has_value(); });
 }
 
-/// Torches' contents take at most one part in so many of `exhibit.memory_mb`.
+/// Torches' contents take at most a quarter of `exhibit.memory_mb`.
 constexpr std::uint64_t share_of_torches = 4;
 
 } // namespace

@@ -26,7 +26,7 @@ public:
     static constexpr double spot_brightness = 0.03;
 
     explicit TorchShow(const settings::TorchSettings& torch) : beam_(torch.beam) {}
-    /// Uploads the spot.
+    /// Uploads the picture of a spot.
     [[nodiscard]] Result<void> prepare(render::GpuStore& store);
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
     [[nodiscard]] scene::TextureId spot() const { return spot_; }

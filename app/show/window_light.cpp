@@ -53,7 +53,7 @@ bool WindowLight::fade_textures(MonotonicTime now, bool is_on_show) {
     return share_ <= 0.0 && leave_out(shows_texture);
 }
 
-/// It comes back with the last light that fades.
+/// Returns to 1 as the last lights fade.
 double WindowLight::house_light() const {
     const auto end = in_prop_.begin() + static_cast<std::ptrdiff_t>(count_);
     const bool all_fade = std::all_of(in_prop_.begin(), end, shows_texture);

@@ -1,6 +1,7 @@
 /// The torches' light in a window: as it lay on the artifact when the window was pinned, or, in a live window, as it lies there now.
 ///
-/// Textures  pictures, films and layers stay for `fade_s` after their artifact was on show, in which their light leaves its windows.
+/// Textures  pictures, films and layers stay for `fade_s` after their artifact was on show; in this time they fade
+///           out in its windows.
 /// Frames    table T; prop P; window: as scene::PinnedView.
 /// Threads   values; one caller. Allocates nothing.
 /// Errors    none.
@@ -33,8 +34,8 @@ public:
     void keep(const LightInProp& light);
     /// Leaves the torches out that do not meet this world, prop frame.
     void leave_out_beside(const scene::WorldBall& world);
-    /// Once a frame: fades what shows textures of the artifact, down while another one is on show and up while it is, and at the end
-    /// leaves those torches out. True: it left some out.
+    /// Call once a frame. Fades the torches that show textures of the artifact: down while another artifact is on
+    /// show, up while it is. When they are dark, leaves them out and returns true.
     bool fade_textures(MonotonicTime now, bool is_on_show);
     void put_out() { *this = {}; }
 
@@ -43,9 +44,9 @@ public:
     [[nodiscard]] double house_light() const;
     /// True if a torch shows textures of the artifact.
     [[nodiscard]] bool shows_textures() const;
-    /// True while it fades.
+    /// True while the textures fade or are dark.
     [[nodiscard]] bool fades() const { return shows_textures() && share_ < 1.0; }
-    /// For a window of this view that stands at `table_from_window`; valid until the next call.
+    /// The torches for a window of this view that stands at `table_from_window`; valid until the next call.
     [[nodiscard]] std::span<const scene::PlacedTorch>
     behind(const scene::PinnedView& view, const geometry::RigidTransform& table_from_window);
 

@@ -1,8 +1,8 @@
 /// The windows that visitors have pinned, in the picture: what each shows, frozen when it was pinned, and a thin frame around it.
 ///
 /// Frozen   the levels or cells that the prop showed, as they stood then; they are drawn anew for each frame's eye, or their
-///          patches are (frozen_windows.h). The governor's
-///          later choices do not change them. A window whose artifact leaves the cache shows nothing any more.
+///          patches are (frozen_windows.h). The governor's later choices do not change them. A window whose artifact leaves
+///          the cache shows nothing any more.
 /// States   a window of a state shows its cells or its layer. All windows of an artifact with states are as large as all of its
 ///          states together need, so that they compare. Until the layer has come, the window is dark.
 /// Time     the windows' time is part of the frame's, which the governor bounds by the level in the prop; frames that miss their
@@ -53,7 +53,7 @@ public:
                bool waits);
     /// `cost`: of frames on this GPU.
     void set_cost(const scene::FrameCost& cost) { frozen_.set_cost(cost); }
-    /// Uploads the frame's texel.
+    /// Uploads the texel that the windows' frames are drawn with.
     [[nodiscard]] Result<void> prepare(render::GpuStore& store);
     [[nodiscard]] std::uint64_t planned_gpu_bytes() const;
     /// Makes space for all that the artifacts of this set may show, and forgets the windows of another one.
@@ -95,17 +95,17 @@ private:
         WindowLight light;
         std::optional<world::SiteView> part;               ///< of a site, that it shows
         std::vector<residency::RunCells::SeenRegion> seen; ///< of that part
-        /// Its levels may leave the memory.
+        /// Drops the copies of the levels, so that these may leave the memory.
         void let_go();
     };
-    /// Drops the copies that windows held which are no longer presented.
+    /// Drops the copies in windows that are not presented any more.
     void let_go(const exhibit::PresentedWindows& presented);
     [[nodiscard]] Held& held_of(MonotonicTime now, const exhibit::PresentedWindow& window,
                                 const exhibit::PresentedWindows& presented,
                                 const residency::ArtifactCache& cache, const LightInProp& light);
     /// Leaves out the light that does not meet what the window shows.
     void limit_light(Held& held) const;
-    /// Sets `parts`, unless what they need has not come.
+    /// Sets `parts` once all that they need is loaded.
     void freeze(MonotonicTime now, const exhibit::PresentedWindow& window,
                 const residency::ArtifactCache& cache, Held& held) const;
     void aim(const exhibit::PresentedWindow& window, const std::optional<scene::WorldBall>& states,
@@ -120,13 +120,14 @@ private:
                                                           const geometry::RigidTransform& table_from_window,
                                                           std::span<const glm::dvec3> eyes_m,
                                                           MonotonicTime now);
-    /// The region of a site that is marked, as the prop will show it. False: none is, or it is not seen.
+    /// Places a window with the marked region of a site, as the prop will show it. False: none is marked, or it is
+    /// not seen.
     [[nodiscard]] bool place_preview(MonotonicTime now, const exhibit::Presentation& presentation,
                                      std::span<const glm::dvec3> eyes_m,
                                      const residency::ArtifactCache& cache, scene::PlacedWindow& placed);
     void set_samples(Held& held) const;
-    /// Sets the parts of a window that shows a part of a site to the best levels that are there, of all regions: its eye sees others than
-    /// the prop's faces.
+    /// Sets the parts of a window that shows a part of a site to the best levels that are there, of all regions: its
+    /// eye sees other regions than the prop's faces show.
     static void refresh(MonotonicTime now, const residency::RunCells& cells, Held& held);
     /// Tells each site which parts of it windows show.
     void expect_parts(const exhibit::Presentation& presentation, const residency::ArtifactCache& cache) const;

@@ -105,7 +105,8 @@ void WindowShow::aim(const exhibit::PresentedWindow& window, const std::optional
     }
 }
 
-/// As the parts had when they were frozen, or one.
+/// Sets the samples that the parts had when they were frozen, or one a pixel while window frames are slow
+/// (window_samples.h).
 void WindowShow::set_samples(Held& held) const {
     for (std::size_t k = 0; k < held.moved.size(); ++k) {
         held.moved[k].level.samples = samples_.few() ? 1 : held.parts[k].level.samples;
@@ -222,7 +223,8 @@ void WindowShow::begin_patches(const exhibit::PresentedWindow& window, const res
     held.follows = window.follows;
     const residency::KnownArtifact& known = cache.known(window.artifact);
     const bool in_layer = window.state && known.states.at(*window.state).layer;
-    // Patches are of a world that lies behind the window, where a part of a site goes on before it, and of its own colours.
+    // Patches show a world that lies behind the window, in its own colours. A part of a site extends in front of the
+    // window.
     if (!held.is_aimed || window.follows || window.live || in_layer || held.light.is_lit() ||
         is_beyond(held.parts)) {
         frozen_.forget(window.number);
@@ -328,7 +330,7 @@ std::span<const scene::PlacedWindow> WindowShow::place(MonotonicTime now,
                                .patches = patches_for(window.number, table_from_window, eyes_m, now),
                                .torches = held.light.behind(held.view, table_from_window)};
     }
-    if (count < windows_.count) { // the plans have room for so many
+    if (count < windows_.count) { // the plans have space for so many windows
         count += place_preview(now, presentation, eyes_m, cache, placed_.at(count)) ? 1 : 0;
     }
     expect_parts(presentation, cache);

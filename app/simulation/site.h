@@ -28,7 +28,7 @@ enum class SiteKind : std::uint8_t { HillTown, Excavation };
 inline constexpr std::size_t min_site_triangles = 42'000;
 struct SiteRequest {
     SiteKind kind = SiteKind::HillTown;
-    std::size_t triangles = 100'000; ///< exactly so many are made
+    std::size_t triangles = 100'000; ///< exactly this number is made
     std::uint64_t seed = 1;
     double size_m = 0.15;
 };

@@ -34,10 +34,10 @@ enum class SiteMaterial : std::uint8_t {
 
 class SiteBuilder {
 public:
-    /// Edges become `detail_m` long, or the whole of a patch where that is shorter.
+    /// The edges of a patch are `detail_m` long, or as long as the patch where that is shorter.
     SiteBuilder(double detail_m, std::uint64_t seed) : detail_m_(detail_m), random_(seed), seed_(seed) {}
 
-    /// Equal on every machine.
+    /// The next random number from `low` to `high`; one seed gives equal numbers on every machine.
     [[nodiscard]] double between(double low, double high);
     /// Smooth noise, -1..1, of features of about a metre at `per_m` = 1.
     [[nodiscard]] double noise(const glm::dvec3& at_m, double per_m) const;
@@ -51,17 +51,17 @@ public:
         double brightness = 1.0;
         Paint paint = {}; ///< in place of `material`
     };
-    /// Its outside is that of du x dv. `min_u`, `min_v`: steps at least.
+    /// Adds a surface; its outside is on the side of du x dv. It has at least `min_u` x `min_v` steps.
     void patch(const Surface& at, const glm::dvec2& lengths_m, const Look& look, int min_u = 1,
                int min_v = 1);
-    /// A flat one, from a corner along two edges.
+    /// A flat patch, from a corner along two edges.
     void quad(const glm::dvec3& corner, const glm::dvec3& along_u, const glm::dvec3& along_v,
               const Look& look);
     /// The square on which the site stands, at z = 0, seen from below.
     void base(double half_side_m);
-    /// Without its bottom. `yaw`: about its middle.
+    /// A box without its bottom. `yaw`: about its middle.
     void box(const glm::dvec3& foot, const glm::dvec3& size, double yaw, const Look& look);
-    /// A body of revolution about a vertical axis; `radius_at` of 0..1, from below to above, open below.
+    /// A body of revolution about a vertical axis, open below; `radius_at` takes 0 (below) to 1 (above).
     void turned(const glm::dvec3& foot, double height, const std::function<double(double)>& radius_at,
                 const Look& look, int min_around, int min_up);
     /// Where a pennant may fly.

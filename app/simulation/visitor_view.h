@@ -1,11 +1,11 @@
 /// The visitor's view: the simulated table with the prop, lit by the projector's picture.
 ///
-/// A separate path, to check the whole chain: it uses the projector's finished picture, the configuration and
-/// the poses, but neither the artifact nor the collineation. A ray goes from the eye through each pixel to
-/// the prop or the table; the point that it hits reflects the projector's pixel that lights it, if any.
+/// A separate path, to check the whole chain: it uses the projector's finished picture, the configuration and the
+/// poses, but neither the artifact nor the collineation. A ray goes from the eye through each pixel to the prop or
+/// the table; the point that it hits reflects the projector's pixel that lights it, if any. A flat screen behind the
+/// table is a surface that shines by itself: a ray that meets it takes its picture's colour.
 ///
 /// Frames   table T; metres. Pixels as in pinhole.h.
-/// A flat screen behind the table is a surface that shines by itself: the ray that meets it takes its picture's colour.
 ///
 /// Light    linear inside, sRGB codes at input and output. With `light`, as in room_light.h. Without it, a
 ///          surface returns the projector's code unchanged, and black where no light falls.

@@ -100,7 +100,8 @@ private:
         return line;
     }
 
-    /// The next line, joined with the following one if a backslash ends it; a comment goes on in no line.
+    /// The next line, joined with the following one if a backslash ends it; a comment does not continue on the next
+    /// line.
     std::string next_statement() {
         line_ = lines_ + 1;
         std::string statement;
@@ -148,7 +149,7 @@ private:
             return bad_input("prop_file.number", "line {}: a number such as 12.5 is expected, not \"{}\"",
                              line_, printable(word, max_name_bytes));
         }
-        if (!(std::abs(*number) <= max_coordinate)) { // not a number is none of them either
+        if (!(std::abs(*number) <= max_coordinate)) { // refuses NaN too
             return bad_input("prop_file.coordinate",
                              "line {}: the coordinate {} is not allowed; allowed are numbers from {} to {}",
                              line_, printable(word, max_name_bytes), -max_coordinate, max_coordinate);

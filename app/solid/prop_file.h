@@ -29,9 +29,10 @@ inline constexpr std::string_view prop_file_heading =
 /// In millimetres, with a group for each face.
 [[nodiscard]] std::string write_prop_file(const Solid& solid);
 
-/// For a prop in its own frame: that its lowest corner lies on z = 0, and that its axis, x = y = 0, runs through it.
+/// Fails unless, for a prop in its own frame, the lowest corner lies on z = 0 and the axis x = y = 0 runs through the
+/// prop.
 [[nodiscard]] Result<void> check_stand(const Solid& solid);
-/// That one of its faces lies on z = 0.
+/// Fails unless one of the faces lies on z = 0.
 [[nodiscard]] Result<void> check_foot(const Solid& solid);
 /// A prop file that passes both checks.
 [[nodiscard]] Result<PropFile> parse_standing_prop(std::string_view text, LengthUnit unit);

@@ -10,7 +10,7 @@ namespace frustumscreen::solid {
 
 namespace {
 
-/// Between the two planes of this normal that hold the solid between them.
+/// The distance between the two planes of this normal that hold the solid between them.
 double width_along(const Solid& solid, const glm::dvec3& normal) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -75,7 +75,7 @@ SolidWidth min_width(const Solid& solid) {
     const std::vector<glm::dvec3> edges = edge_directions(solid);
     for (std::size_t a = 0; a < edges.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
-            constexpr double parallel = 1e-9; // sine; such edges lie in planes that other pairs have too
+            constexpr double parallel = 1e-9; // sine; other pairs of edges span the same planes
             const glm::dvec3 across = glm::cross(edges[a], edges[b]);
             if (glm::length(across) > parallel) {
                 look_along(glm::normalize(across));

@@ -7,9 +7,9 @@
 
 namespace frustumscreen::status {
 
-/// A Prometheus family, or one sample of several. A text is the sample 1 with the text as label value. A word from
-/// a list has a sample for each word; its own is 1. A list is its length. A field that may be null in the file is 1
-/// if it is not null.
+/// A Prometheus family, or one sample of several. A number is one sample. A text is one sample of value 1, with
+/// the text as label value. A word from a list has a sample for each word of the list: 1 for its own, 0 for the
+/// others. A list is its length. An object that may be null in the file is 1 if it is not null, else 0.
 struct Metric {
     std::string_view name = {}; ///< without frustumscreen_; a counter's ends in _total; empty: no metric
     std::string_view help = {};

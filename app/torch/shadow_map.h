@@ -54,15 +54,16 @@ public:
     /// and diagonally below; the three nearest of these four middles count.
     struct Farthest {
         float of_four = 0.0F; ///< the least nearness of all
-        /// The least of all but one, or 0: the two lowest bits say which one: 0 the pixel, 1 to the right, 2 below, 3 both. For
-        /// places away from that one; for others it is the same as of all.
+        /// The least nearness of the three middles other than the least one; its two lowest bits name the least
+        /// one: 0 the pixel, 1 to the right, 2 below, 3 both. For places of which that middle is the farthest of
+        /// the four; other places use `of_four`.
         float without_one = 0.0F;
     };
-    /// Computes `farthest` for all pixels, row by row, but for the last column and row. Both values are reduced by half the range of
-    /// nearness of the middles, for steep surfaces, and by a share of `max_share` at most.
+    /// Computes `farthest` for all pixels, row by row, but for the last column and row. For steep surfaces both
+    /// values are reduced by half the range of the four middles' nearness, but by at most the share `max_share`.
     void find_farthest();
     [[nodiscard]] std::span<const Farthest> farthest() const { return farthest_; }
-    /// The slack.
+    /// The share `slack` of the latest `end`.
     [[nodiscard]] float max_share() const { return max_share_; }
 
     /// The nearness of back-facing surfaces. The first call since `begin` clears it.

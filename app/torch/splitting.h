@@ -12,14 +12,14 @@
 ///              InverseSquare   D = full^2 (8 c^2 - 2) / r^4
 ///              Linear          D = -(1 - c^2) / (r (dark - full))
 ///              SmoothStep      D with I' = -6 t (1 - t) / (dark - full), I'' = (12 t - 6) / (dark - full)^2
-///          On a line of that direction inside the triangle, linear interpolation errs by at most B = L^2 / 8 max |D|, the
-///          maximum over the triangle's own distances and angles. Where the slope jumps by J, at `full_m` and `dark_m`, it errs by J |c| L / 4
-///          more, and a line meets that sphere twice: K. A point of weight w for one corner lies on a line parallel to
-///          the opposite edge, (1 - w) L long, between points of the two other edges of weights w and 1 - w, so it errs by
-///          at most (1 - w)^2 B + (1 - w) K + 4 w (1 - w) (B + K) with the largest B and K of the three: 4/3 B, and
-///          25/16 (B + K) where there are jumps. It bounds the attenuation alone: at the beam's edge and reach the
-///          light ends at once. Two triangles may halve a common edge differently; their intensities there differ by
-///          twice the tolerance at most, and their places by rounding alone.
+///          On a line of that direction inside the triangle, linear interpolation errs by at most B = L^2 / 8 max |D|,
+///          the maximum over the triangle's own distances and angles. Where the slope jumps by J, at `full_m` and
+///          `dark_m`, it errs by J |c| L / 4 more, and a line meets that sphere twice: K. A point of weight w for one
+///          corner lies on a line parallel to the opposite edge, (1 - w) L long, between points of the two other edges
+///          of weights w and 1 - w, so it errs by at most (1 - w)^2 B + (1 - w) K + 4 w (1 - w) (B + K) with the largest
+///          B and K of the three: 4/3 B, and 25/16 (B + K) where there are jumps. It bounds the attenuation alone: at
+///          the beam's edge and reach the light ends at once. Two triangles may halve a common edge differently; their
+///          intensities there differ by twice the tolerance at most, and their places by rounding alone.
 ///
 /// Frames   torch: torch.h. A corner's `place` is in any frame that an affine transform takes the torch's to.
 /// Units    metres; intensity 0..1.

@@ -5,7 +5,7 @@
 ///          Content: (0, 0) top left, (1, 1) bottom right.
 /// Units    metres, radians. Intensity: 0..1, linear light; 1 is full.
 /// Threads  pure; any.
-/// Source   Francken, Huysmans & Bekaert 2007: projective texture with attenuation by the light's way.
+/// Source   Francken, Huysmans & Bekaert 2007: projective texture with attenuation by the distance from the light.
 #pragma once
 
 #include "app/geometry/transform.h"
@@ -23,7 +23,7 @@ namespace frustumscreen::torch {
 /// Torches at once: the one in the hand, a lamp that a camera sees, and two that were left on.
 inline constexpr std::size_t max_torches = 4;
 
-/// How intensity falls with the light's way w. Up to `full_m` all are 1.
+/// How intensity falls with the light's way w, its distance from the torch. Up to `full_m` all are 1.
 enum class Attenuation : std::uint8_t {
     InverseSquare, ///< (full_m / w)^2
     Linear,        ///< straight down to 0 at `dark_m`
@@ -53,7 +53,7 @@ struct Beam {
 
 /// The tangents of half the opening, across and down.
 [[nodiscard]] glm::dvec2 half_extent(const Beam& beam);
-/// By the way alone, without the bound.
+/// By the way alone, also beyond the beam's reach.
 [[nodiscard]] double attenuation_at(const Beam& beam, double way_m);
 /// Way at which the intensity is `min_intensity`; infinite without attenuation.
 [[nodiscard]] double reach_m(const Beam& beam);

@@ -1,9 +1,10 @@
-/// The exhibit's filter of a prop that is lifted: one for the table and one for the hand, both at all times, and softly from
-/// one to the other by how much the prop is held (held_meter.h).
+/// The exhibit's filter of a prop that may be lifted. A filter for the table and one for the hand run side by side,
+/// and the pose is a mixture of both by how much the prop is held (held_meter.h).
 ///
 /// Table    while nothing lifts or tilts the prop, its poses are those of the table's filter bit for bit: as still, and as
 ///          little beyond a stop.
 /// Hand     the motion goes on: less slip, and more tremble.
+/// Frames   pose_filter.h.
 /// Threads  one caller. Allocates nothing after construction.
 #pragma once
 

@@ -3,10 +3,11 @@
 ///
 /// Tags     an optional second tracker of the prop. Each of the two has its own estimator; the source arbiter
 ///          (source_arbiter.h) chooses between them.
-/// Visitor  heads that a camera sees, without a marker on them. While no sensor reports the visitor's head,
-///          the eye is that of the active visitor (holder.h); it glides from one person to another.
-/// Two eyes for stereo alone: the turn of the sensor on the head; a head that is seen, and a fixed viewer, look level at
-///          the prop. Glasses that lie (worn_glasses.h), and a head that is lost, get one eye softly (eyes_apart.h).
+/// Visitor  heads that a camera sees, without a marker on them. While no sensor reports the visitor's head, the eye
+///          is that of the active visitor (active_visitor.h); it glides from one person to another.
+/// Stereo   two eyes, turned as the sensor on the head; a head that a camera sees, and a fixed viewer, look level at
+///          the prop. For glasses that lie (worn_glasses.h), and for a head that is lost, the picture changes
+///          smoothly to one eye (eyes_apart.h).
 /// Torches  where the settings have them: each with an estimator of its own (torch_follower.h).
 /// Frames   table T, metres; samples too (registered_tracker.h).
 /// Time     a sample takes effect at its own time; `at(lit)` asks for the time at which the picture is lit.

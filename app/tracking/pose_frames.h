@@ -3,7 +3,8 @@
 /// Frames   table T, metres; neither filtered nor predicted. Times are ascending and unique; of several
 ///          usable rows with equal time and station the first counts. The eye is the head's row of that time,
 ///          otherwise the default eye. Rows with ok = 0 are ignored.
-/// Eyes     both, beside that point: the head is turned as its row says; at the default eye it looks level at the prop.
+/// Eyes     two for stereo, beside that point: the head is turned as its row says; at the default eye it looks level
+///          at the prop.
 /// Threads  pure; any.
 #pragma once
 

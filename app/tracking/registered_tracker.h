@@ -16,9 +16,9 @@
 
 namespace frustumscreen::tracking {
 
-/// Transforms poses from a device's own frame to the table: those of the prop's sensor become the prop's,
-/// those of the head's the eye's, with +X from the left eye to the right one; those of other sensors stay the sensor's. A pose that is not ok is
-/// unchanged.
+/// Transforms poses from the device's own frame to the table T. The pose of a sensor becomes that of the thing that
+/// it is fixed to: of the prop, of the eye with +X from the left eye to the right one, or of the torch. The poses of
+/// other sensors stay those of the sensors. A pose that is not ok is unchanged.
 void place_on_table(std::span<tracker::PoseSample> samples, const geometry::Registration& registration);
 
 class RegisteredTracker final : public tracker::Tracker {

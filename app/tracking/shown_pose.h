@@ -5,6 +5,7 @@
 ///          constant bit for bit, and the picture is not drawn again. The shown pose is never farther off.
 /// Return   the difference to the old pose fades along a smooth step; from afar it takes longer, so that it is never faster
 ///          than `fastest_m_s`.
+/// Frames   those of the estimate; metres.
 /// Time     of the pictures; a decreasing time moves nothing.
 /// Threads  one caller. Allocates nothing.
 #pragma once

@@ -1,8 +1,8 @@
-/// How well a tracker sees one of its sensors, over the last second: how many samples come, how many of them can be used, and how much
-/// they tremble.
+/// How well a tracker sees one of its sensors, over the last second: how many samples come, how many of them can be
+/// used, and how much they tremble.
 ///
-/// Noise    the samples' distance from their mean, RMS, and their turn from the mean rotation: of a sensor that lies still. One that
-///          is moved has its movement in it.
+/// Noise    the samples' distance from their mean, RMS, and their turn from the mean rotation. It is the noise of a
+///          sensor that lies still; if the sensor is moved, it includes the movement.
 /// Frames   those of the samples; millimetres and degrees out.
 /// Time     `now` never goes back; samples count by their own time.
 /// Threads  a value; one caller. Allocates nothing.

@@ -37,7 +37,7 @@ public:
     /// The exact motion, x from the rest.
     [[nodiscard]] Motion motion(MonotonicTime now) const;
     [[nodiscard]] bool at_rest(MonotonicTime now) const;
-    /// The motion's addition to the cell's pose: base_from_cell = rest * this. None at rest.
+    /// The motion's addition to the cell's pose: base_from_cell = rest * this. The identity at rest.
     [[nodiscard]] glm::dmat4 matrix(MonotonicTime now) const;
     [[nodiscard]] std::size_t cell() const { return cell_; }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A motion too small to see, in cell sizes: a fiftieth of a pixel on the usual prop.
 constexpr double still_share = 1e-4;
-/// After a longer gap than so many rounds, the older ones' pushes are left out.
+/// If a step spans more rounds than this, the pushes of the oldest ones are left out.
 constexpr std::int64_t max_rounds_in_step = 1000;
 
 glm::dvec4 rest_of(const Cell& cell, Path path) {

@@ -58,7 +58,7 @@ private:
     struct Run {
         bool on = false;
         MonotonicTime began;
-        std::uint64_t turn = 0; ///< which start it was, of all
+        std::uint64_t turn = 0; ///< number of this start, counted over the starts of all behaviours
     };
     struct Link {
         std::size_t behaviour = 0;
@@ -71,7 +71,7 @@ private:
     struct Swinging {
         CellSpring motion;
         std::size_t behaviour = 0;
-        std::int64_t rounds = 0; ///< of the repeating behaviour, in which it was pushed
+        std::int64_t rounds = 0; ///< of the repeating behaviour, for which it was pushed
     };
 
     void make_parts();
@@ -89,7 +89,7 @@ private:
     std::uint64_t starts_ = 0;
     std::vector<Part> parts_;
     std::vector<Swinging> springs_;
-    std::vector<LocalPose> local_; ///< of the step, as the next
+    std::vector<LocalPose> local_; ///< of the step, as are the next two
     std::vector<glm::dmat4> base_from_cell_;
     std::vector<CellPose> poses_;
     bool moves_ = false;

@@ -1,7 +1,7 @@
 /// The law of a damped spring, solved exactly: x'' = -stiffness x - damping x', with x from where it rests.
 ///
-/// A motion is taken from an event to any later time in one evaluation, so steps between add no error, and neither the
-/// stiffness nor the step can make it unstable. Under, over and on the spot of critical damping it is one formula:
+/// A motion is taken from an event to any later time in one evaluation, so steps between add no error, and neither
+/// the stiffness nor the step can make it unstable. Below, at and above critical damping it is one formula:
 ///     x(t) = x C + (v + b x) S,   v(t) = v C - (stiffness x + b v) S,   b = damping / 2,
 ///     C = exp(-b t) cosh(w t),    S = exp(-b t) sinh(w t) / w,          w^2 = b^2 - stiffness,
 /// where cosh and sinh are cos and sin for negative w^2, and S is t exp(-b t) for w = 0, to which both tend.

@@ -1,4 +1,6 @@
 /// Reads and writes whole files. A written file appears by rename, either complete or not at all.
+///
+/// Threads  any; not two at once on one path.
 #pragma once
 
 #include "firmware_host/base/result.h"

@@ -1,4 +1,7 @@
-/// The machine's name in a network: on the appliance frustumscreen- and six digits, of which no two are the same.
+/// The machine's name in a network: on the appliance `frustumscreen-` and six digits that differ from machine to
+/// machine.
+///
+/// Threads  any.
 #pragma once
 
 #include <unistd.h>
@@ -8,7 +11,7 @@
 
 namespace frustumscreen {
 
-/// Empty: it cannot be had.
+/// Empty if the system does not give it.
 [[nodiscard]] inline std::string host_name() {
     std::array<char, 256> name{};
     return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();

@@ -1,7 +1,7 @@
-/// Freed memory back to the system.
+/// Returns freed memory to the system.
 ///
-/// Cause    the C library keeps freed memory for later requests; small pieces that are still in use between freed ones hold on to all around
-///          them. After an artifact is read and uploaded that is some 80 MB.
+/// Cause    the C library keeps freed memory for later requests, and small pieces that are still in use keep the
+///          freed memory around them. After an artifact is read and uploaded, some 80 MB are kept in this way.
 /// Threads  any. An allocation of another thread may wait for some milliseconds.
 /// Errors   none.
 /// Library  glibc: malloc_trim.

@@ -4,8 +4,8 @@
 /// Time     read from `clock`, because a wait takes time. A camera that returns is found within
 ///          `between_searches` and streams after one set-up; it counts as well after FrameHealth::dwell of
 ///          good frames: together below 2 s.
-/// Share    frames are skipped, so that decoding, judging and using the others takes at most `share` of one
-///          core (frame_pace.h).
+/// Share    frames are skipped, so that decoding, judging and using the others takes at most `share` of one core
+///          (cpu_throttle.h).
 /// Threads  one caller; a step waits for at most one frame, and a set-up for some twenty control transfers.
 /// Errors   none; `state` describes them.
 #pragma once

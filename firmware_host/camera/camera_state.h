@@ -81,7 +81,7 @@ enum class CameraState : std::uint8_t {
     }
     return {"camera.unknown", ""};
 }
-/// One plain sentence: what, and what to do. Running, where all is well, says so too.
+/// One plain sentence: the state, and what to do about it. Running has a sentence too.
 [[nodiscard]] constexpr std::string_view sentence_of(CameraState state) {
     return note_of(state).sentence;
 }
@@ -108,7 +108,7 @@ enum class CameraHealth : std::uint8_t {
     }
 }
 
-/// A camera that cannot be locked is made so: nothing can be put right.
+/// Unlocked counts as Well: a camera without locks is built that way, and nobody can change it.
 [[nodiscard]] constexpr DeviceCondition condition_of(CameraState state) {
     const CameraHealth health = health_of(state);
     return {health == CameraHealth::Well       ? DeviceHealth::Well
@@ -117,7 +117,7 @@ enum class CameraHealth : std::uint8_t {
             note_of(state).id};
 }
 
-/// Its frames show what is before it now, even if they come slowly or are too bright.
+/// Whether its frames show what is in front of it now, even if they come slowly or are too bright.
 [[nodiscard]] constexpr bool shows_something(CameraState state) {
     return health_of(state) == CameraHealth::Well || state == CameraState::Slow ||
            state == CameraState::Blinded;

@@ -1,7 +1,6 @@
 /// Hands the latest frame from the camera's thread to another by swapping memory: no frame is copied, and
 /// once three buffers have their size nothing is allocated.
 ///
-///
 /// Threads  one puts, one takes; taking never waits.
 #pragma once
 

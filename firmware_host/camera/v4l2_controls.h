@@ -1,7 +1,6 @@
 /// Locks exposure, gain and white balance of a V4L2 camera: automatic off, value set, and read back. A camera
 /// that changes them by itself would mistake the projector's picture for a change of light.
 ///
-///
 /// Threads  the camera's own.
 /// Errors   none: each control's row reports a failure.
 #pragma once

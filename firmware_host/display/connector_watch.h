@@ -22,8 +22,9 @@ namespace frustumscreen::display {
 
 /// The state that two outputs of one card share.
 struct CardTurns {
-    std::mutex asking;                   ///< held while a connector is probed or a mode is set
-    std::atomic<bool> has_lease = false; ///< a probe for one output holds the other's up, also in the kernel
+    std::mutex asking; ///< held while a connector is probed or a mode is set
+    std::atomic<bool> has_lease =
+        false; ///< a probe for one output delays probes for the other, also in the kernel
 };
 
 /// As KmsCard::look.
@@ -31,7 +32,8 @@ using LookAtCard = std::function<CardSeen(bool thoroughly)>;
 
 class ConnectorWatch {
 public:
-    /// `turns`: of the card; while it has a lease, another watch may hold this one's looks up.
+    /// `turns`: shared by the watches of one card. While the card has a lease, another watch's probe may delay this
+    /// one's.
     ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug,
                    std::shared_ptr<CardTurns> turns = std::make_shared<CardTurns>());
     ~ConnectorWatch();

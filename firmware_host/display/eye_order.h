@@ -23,9 +23,9 @@ class EyeOrder {
 public:
     explicit EyeOrder(KmsDevice& card) : card_(card) {}
 
-    /// As those of KmsDevice. The framebuffer holds the left eye's rows, `shown.size.height` of them, and as many of the
-    /// right eye's below. A flip that is Done takes effect, or `next_shown` tells that it failed. Busy where the flip for the
-    /// next refresh is not done: no further one follows it, so try again.
+    /// As those of KmsDevice. The framebuffer holds the left eye's rows, `shown.size.height` of them, and as many of
+    /// the right eye's below. After Done, `next_shown` reports the flip, or that it failed. Busy: the flip for the
+    /// next refresh is not done, so no further one can be queued; try again.
     [[nodiscard]] KmsAnswer light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                                   std::uint64_t ticket);
     [[nodiscard]] KmsAnswer flip(FramebufferId shown, std::uint64_t ticket);

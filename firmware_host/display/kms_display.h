@@ -24,8 +24,8 @@
 
 namespace frustumscreen::display {
 
-/// The card's device. Only where the eyes' pictures are shown in turn it has a thread. Without atomic commits no flip can
-/// change the shown rows: the left eye's are shown.
+/// The card's device. It has a thread only if the eyes' pictures are shown in turn. Without atomic commits no flip
+/// can change the shown rows: the left eye's are shown.
 [[nodiscard]] std::unique_ptr<KmsDevice> make_device(const KmsCard& card, EyeLayout eyes);
 
 class KmsDisplay final : public Display {

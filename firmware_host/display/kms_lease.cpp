@@ -54,7 +54,7 @@ std::vector<KmsCrtc> usable_crtcs(const KmsCard& card, std::uint32_t connector,
     return crtcs;
 }
 
-/// One that leaves a CRTC for the connector that stays, and rather not the one that feeds that connector now.
+/// A CRTC that leaves another one for the connector that stays; if possible not the one that feeds that connector.
 std::optional<KmsCrtc> choose_crtc(const std::vector<KmsCrtc>& wanted, const std::vector<KmsCrtc>& stays) {
     const auto leaves_one = [&stays](const KmsCrtc& taken) {
         return stays.empty() || std::any_of(stays.begin(), stays.end(),

@@ -1,8 +1,9 @@
 /// A lease of one output of a graphics card: the kernel gives its connector, a CRTC and the planes of that CRTC to another
 /// file of the same program, whose modes and flips are its own.
 ///
-/// Choice   the CRTC that feeds the connector now, else the first that can, of those that leave one for the connector that
-///          stays. Outputs that an earlier program has lit are turned off first, except the connector that stays.
+/// Choice   a CRTC that leaves another one for the connector that stays: preferably the one that feeds the leased
+///          connector now, otherwise the first that can feed it. Outputs that an earlier program has lit are turned
+///          off first, except the connector that stays.
 /// Threads  the render thread, while no mode is being set.
 /// Errors   the card lacks the connector, cannot light both at once, or refuses the lease.
 /// Source   Linux 6.1, drivers/gpu/drm/drm_lease.c: the lessor must be the master; connector, CRTC and, with universal planes,

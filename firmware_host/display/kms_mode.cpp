@@ -102,7 +102,8 @@ std::uint32_t stereo_flag(EyeLayout eyes) {
     return 0;
 }
 
-/// Puts before each mode that of the same timing which tells the projector the layout of the eyes' pictures.
+/// Puts before each mode its twin, if the connector lists it: the mode of the same timing that tells the projector
+/// the layout of the eyes' pictures.
 std::vector<ModeTiming> with_twins(const std::vector<ModeTiming>& plain,
                                    const std::vector<ModeTiming>& listed, EyeLayout eyes) {
     std::vector<ModeTiming> modes;

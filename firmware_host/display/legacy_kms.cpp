@@ -27,8 +27,8 @@ bool set_properties(int card, const KmsProperties& connector) {
 
 } // namespace
 
-/// Shows a framebuffer only without scaling, and of a higher one its first rows. The connector's first CRTC is used; all others that are not leased are
-/// turned off first, because they may hold resources that this mode needs.
+/// Shows a framebuffer only without scaling, and of a higher one its first rows. The connector's first CRTC is used;
+/// all others that are not leased are turned off first, because they may hold resources that this mode needs.
 KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, const ScannedOut& shown,
                            std::uint64_t ticket) {
     const PixelSize screen{mode.width, mode.height};

@@ -1,7 +1,7 @@
 /// Unmutes a sound card whose mixer controls are muted, which is Linux' default for a new card.
 ///
-/// What     its 'Master', 'PCM', 'Speaker' and similar controls, if one is switched off or at its minimum:
-///          switched on and set to 0 dB. A control that was set by hand, however low, stays unchanged.
+/// Controls 'Master', 'PCM', 'Speaker' and similar: one that is switched off or at its minimum is switched on and set
+///          to 0 dB. A control that was set by hand, however low, stays unchanged.
 /// Errors   none: a card without such controls, or one that refuses, is left unchanged.
 /// Threads  one caller; it may take as long as opening the card.
 #pragma once

@@ -1,6 +1,7 @@
 /// A silent sound, for an exhibit without a loudspeaker: it only keeps time.
 ///
 /// Time     that of `poll`, in whole samples since `start`; a request takes effect where the last `poll` ended.
+/// Threads  one caller.
 #pragma once
 
 #include "firmware_host/sound/mixer.h"

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] virtual std::string_view state() const { return {}; }
     /// Whether the device that the settings ask for can be used; its id is that of the sentence that `state` says.
     [[nodiscard]] virtual DeviceCondition condition() const { return {}; }
-    /// Until when its thread has promised to be heard from again; nothing: it has none.
+    /// Time until which the device's thread has promised a sign of life; nullopt: there is no such thread.
     [[nodiscard]] virtual std::optional<MonotonicTime> alive_until() const { return {}; }
 };
 

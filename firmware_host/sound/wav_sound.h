@@ -3,6 +3,7 @@
 /// Time     that of `poll`, in whole samples since `start`; a request takes effect where the last `poll` ended.
 /// Memory   96 kB per second, until `write`; it holds `longest` and drops later samples.
 /// Errors   those of the file, one sentence; the file appears by rename.
+/// Threads  one caller.
 #pragma once
 
 #include "firmware_host/base/result.h"

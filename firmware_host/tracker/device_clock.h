@@ -28,7 +28,7 @@ public:
     /// The device's `tick` as monotonic time. Times ascend with the ticks; while the clock is believed, equal
     /// ticks give equal times.
     [[nodiscard]] MonotonicTime time_of(std::uint32_t tick, MonotonicTime arrival);
-    /// Our seconds for each of the device's, minus 1; 0 during the first seconds.
+    /// Seconds of our clock per second of the device's, minus 1; 0 during the first seconds.
     [[nodiscard]] double drift() const { return drift_; }
     /// How often the device's clock jumped.
     [[nodiscard]] std::uint64_t restarts() const { return restarts_; }

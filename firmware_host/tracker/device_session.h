@@ -14,7 +14,8 @@ namespace frustumscreen::tracker {
 
 /// Settings of a tracker of any make.
 struct UsbTrackerSetUp {
-    /// Points from the source into the half space that holds the sensors; the tracker cannot determine it.
+    /// In the tracker's frame: points from the source into the half space that holds the sensors, which the tracker
+    /// cannot determine itself.
     glm::dvec3 hemisphere{1.0, 0.0, 0.0};
     /// Half the table along X and Y; the pose of a SpaceMouse stays within it.
     glm::dvec2 table_half_m{0.4, 0.25};
@@ -25,6 +26,7 @@ public:
     virtual ~DeviceSession() = default;
     /// The command to send now; empty if none is due. Valid until the next call.
     [[nodiscard]] virtual std::span<const std::byte> due(MonotonicTime now) = 0;
+    /// Decodes bytes that arrived at `arrival` and appends their samples to `samples`.
     virtual void receive(std::span<const std::byte> bytes, MonotonicTime arrival,
                          std::vector<PoseSample>& samples) = 0;
     [[nodiscard]] virtual UsbTrackerState state(MonotonicTime now) const = 0;

@@ -1,5 +1,4 @@
-/// A path through poses, like the motion of a hand that knows its target: without a jerk from one pose to the
-/// next.
+/// A minimum-jerk path through poses, as a hand moves to a known target: smooth from one pose to the next.
 ///
 /// Between two poses of a station the position follows 10 s^3 - 15 s^4 + 6 s^5, where s is the fraction of
 /// the time; the rotation turns the shorter way by the same fraction of its angle. Between two equal poses

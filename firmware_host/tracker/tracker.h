@@ -47,7 +47,7 @@ struct TrackerCounts {
     std::uint64_t unusable = 0;       ///< invalid poses, or poses that the device marks as bad
     std::uint64_t broken = 0;         ///< discards of bytes, mostly for a wrong checksum
     std::uint64_t clock_restarts = 0; ///< jumps of the device's clock
-    double clock_drift = 0.0;         ///< our seconds for each of the latest device's, minus 1
+    double clock_drift = 0.0;         ///< seconds of our clock per second of the latest device's, minus 1
 
     /// Adds the counts of a later device; the drift becomes the later one's.
     TrackerCounts& operator+=(const TrackerCounts& later) {

@@ -97,7 +97,7 @@ enum class UsbTrackerState {
     }
     return {"tracker.unknown", ""};
 }
-/// One plain sentence: what, and what to do. Streaming, where all is well, says so too.
+/// One plain sentence: the state, and what to do about it. Streaming has a sentence too.
 [[nodiscard]] constexpr std::string_view sentence_of(UsbTrackerState state) {
     return note_of(state).sentence;
 }
@@ -125,7 +125,7 @@ enum class UsbTrackerState {
     return {is_away ? DeviceHealth::Away : DeviceHealth::Impaired, note_of(state).id};
 }
 
-/// It is plugged in, may be opened, and does not do what it should: a reset of its port may help.
+/// Whether the device is plugged in but does not work, so that a reset of its port may help.
 [[nodiscard]] constexpr bool hangs(UsbTrackerState state) {
     return state == UsbTrackerState::CannotBeOpened || state == UsbTrackerState::SetUpRefused ||
            state == UsbTrackerState::Silent || state == UsbTrackerState::DeviceFault;

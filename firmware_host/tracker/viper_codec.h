@@ -36,7 +36,7 @@ enum class ViperAction : std::uint32_t {
     Nak = 4,
     NakWarning = 5, ///< processed, with a warning; its payload is a Nak's
 };
-/// Get allows no Both.
+/// The command Get must name one of the two filters, not Both.
 enum class ViperFilterTarget : std::uint32_t { Both = 0, Orientation = 1, Position = 2 };
 /// The first number in a Nak's payload.
 enum class ViperNak : std::uint32_t { General = 0, Booting = 1, Command = 2, BuiltInTest = 3 };

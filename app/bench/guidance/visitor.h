@@ -1,7 +1,7 @@
 /// Simulated visitors who play with the prop for a minute: with the exhibit's advice, with the paper's, with none, and
-/// with perfect advice. Perfect advice is a lower bound: it is shown at once, seen, understood and carried out exactly,
-/// with one reaction time for a whole sequence. The time that remains is the visitors' own: play, reaction time and
-/// speed.
+/// with perfect advice. Perfect advice is shown at once, seen, understood and carried out exactly, with one reaction
+/// time for a whole sequence. The lost time that remains with it is the visitors' own (play, reaction time and
+/// speed), a lower bound for any advice.
 ///
 /// A visitor finds the prop where an earlier one left it, and turns, slides and lifts it at will while the picture is
 /// whole. When it is not, the visitor follows the advice after a reaction time of 0.3 to 1.5 s; one in ten advices is

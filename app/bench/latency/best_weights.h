@@ -1,6 +1,6 @@
-/// The floor of linear prediction on a recording: the weighted sum of the latest samples whose weights were fitted to the
-/// very motion that it is then measured on. No causal linear filter with that memory is better, whatever its model;
-/// the exhibit cannot have these weights, because they need the truth.
+/// A lower bound for the error of linear prediction on a recording: the weighted sum of the latest samples, with
+/// weights fitted to the same motion that is then measured. No causal linear filter with that memory is better,
+/// whatever its model; the exhibit cannot have these weights, because they need the truth.
 ///
 /// Method   least squares of the true pose when the picture is lit, relative to the latest sample, on the differences of
 ///          the earlier ones to it and on their products with the time ahead; place and turn apart, axes alike.

@@ -1,5 +1,6 @@
-/// Recordings of hands, replayed faster: how far the picture slips on a prop that is held, and how far it passes the places
-/// at which the hand turns back. The same recordings, flattened onto the table, say what a sliding prop loses.
+/// Recordings of hands, replayed faster: how far the picture slips on a prop that is held, and how far it passes the
+/// places at which the hand turns back. The same recordings, flattened onto the table, give the slip on a sliding
+/// prop.
 ///
 /// Motion   the recording at 1, 2 and 4 times its speed, sampled at the tracker's own rate, with its noise and latency.
 ///          The truth is the recording itself at the time of light.

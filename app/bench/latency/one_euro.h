@@ -1,5 +1,6 @@
 /// The 1 Euro filter and a pass-through filter, as references for the exhibit's filter.
 ///
+/// Frames   pose_filter.h.
 /// Threads  one caller. Allocates nothing.
 /// Source   Casiez, Roussel and Vogel, 1 Euro filter: a simple speed-based low-pass filter for noisy input in
 ///          interactive systems, 2012, algorithm 1; rotations enter as rotation vectors from the previous

@@ -1,9 +1,10 @@
 /// Pictures with depth that the GPU warps, as an engine does today (window_technique.h).
 ///
-/// Grid     each picture is a grid of triangles with a vertex at each pixel's middle. Where depth jumps between neighbours they are
-///          stretched, so that what was hidden is closed: cut there, more than a third of the town is missing from most eyes.
+/// Grid     each picture is a grid of triangles with a vertex at each pixel's middle. Where the depth jumps between
+///          neighbours, the triangles are stretched across the jump and cover what is hidden behind it. With a grid
+///          cut there, more than a third of the town is missing from most eyes.
 /// Points   squares of the picture, as large as the pixel's surface is from straight ahead, and half a pixel more.
-/// Threads  the one of the set.
+/// Threads  that of the set.
 /// Errors   the driver has no memory, or refuses a shader.
 #pragma once
 

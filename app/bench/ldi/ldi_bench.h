@@ -1,12 +1,12 @@
 /// Measures cost and error of frozen windows by every technique of window_technique.h, as the multi-LDI report's Fig. 8 does.
 ///
-/// Time     processor time of all threads. A frame draws the scene alone, in the prop, then a first window to a fourth, each waited
-///          for; the time of a frame with so many windows is what has passed by then. For each frame the least of some passes, which
-///          the techniques take in turn; then the median and the 99th percentile over the frames. Every eye moves in every frame,
-///          and all is redrawn.
-/// Error    of a window's picture against rays (docs/conventions.md), a mean over the pictures of some frames; in the table of patches
-///          over eyes drawn in each patch of the hemisphere.
-/// Threads  one whose display is not in use: each set has its own.
+/// Time     processor time of all threads. A frame draws the scene in the prop, then one to four windows, and waits
+///          after each; the time of a frame with n windows ends when window n is drawn. A frame's time is the least
+///          of several passes, which the techniques take in turn; results are the median and the 99th percentile over
+///          the frames. Every eye moves in every frame, and everything is redrawn.
+/// Error    a window's picture against rays (docs/conventions.md), the mean over the pictures of some frames; in the
+///          table of patches, over eyes drawn in each patch of the hemisphere.
+/// Threads  the caller's; each set makes a display's context of its own current there.
 /// Errors   as WindowSet and the techniques.
 #pragma once
 

@@ -1,7 +1,7 @@
 /// The scene of `frustumscreen-bench ldi`: a hill town, in the prop and frozen behind windows, and the eyes' paths.
 ///
-/// A window lies over the town as over a pit: the town's up direction leans by 15 degrees from the window's normal, away from
-/// the eye that froze it, and the town's whole box is behind the window.
+/// The window lies over the town like a pane over a pit: the town's up direction leans by 15 degrees from the
+/// window's normal, away from the eye that froze it, and the town's whole box is behind the window.
 ///
 /// Frames   window (app/ldi/triangle_world.h); site (app/simulation/site.h).
 /// Threads  pure; any. The same numbers and seed give the same scene on every machine.
@@ -45,8 +45,8 @@ struct WindowScene {
 struct WindowFrame {
     std::array<glm::dvec3, max_windows> eyes_m{}; ///< window frame of each
 };
-/// Each eye goes through the centre and round the ring of its window's hemisphere, steadily, at 0.85 to 1.2 times the distance
-/// of the frozen eye; where it begins is drawn.
+/// Each eye goes through the centre and round the ring of its window's hemisphere, steadily, at 0.85 to 1.2 times the
+/// distance of the frozen eye. Its start is drawn from `seed`.
 [[nodiscard]] std::vector<WindowFrame> window_path(int frames, std::uint64_t seed);
 /// The patch that the eye is in; beyond the cap, the one whose middle is nearest.
 [[nodiscard]] std::size_t nearest_patch(const ldi::Hemisphere& hemisphere, const glm::dvec3& eye_m);

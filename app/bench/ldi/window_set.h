@@ -1,4 +1,4 @@
-/// A scene on a display of its own: in the prop, as the exhibit shows it, and behind windows of so many pixels.
+/// A scene on a display of its own: in the prop, as the exhibit shows it, and behind windows of `pixels` x `pixels`.
 ///
 /// One window's data serve all windows of the bench: they freeze the same world in the same pose.
 ///

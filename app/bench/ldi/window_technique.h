@@ -16,7 +16,7 @@
 ///
 /// Picture  one sample a pixel, drawn into WindowSet::target, cleared with it; sRGB codes pass unchanged.
 /// Frames   window; metres.
-/// Threads  the one of the set, which must outlive the technique. The pieces work on one core.
+/// Threads  that of the set, which must outlive the technique. A technique's own work on the processor uses one core.
 /// Errors   a driver without memory.
 #pragma once
 

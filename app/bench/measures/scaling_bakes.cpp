@@ -13,7 +13,7 @@ namespace frustumscreen::bench {
 
 namespace {
 
-/// The most that a bake of a scan of up to so many triangles may take, on two cores.
+/// The most time that a bake of a scan of up to `triangles` triangles may take, on two cores.
 struct BakeLimit {
     std::uint64_t triangles;
     double seconds;

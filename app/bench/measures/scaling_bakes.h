@@ -21,15 +21,15 @@ struct ScalingBake {
     std::uint64_t scan_bytes = 0;
     double seconds = 0.0;
     double processor_seconds = 0.0;
-    std::uint64_t memory_bytes = 0; ///< the most at a time
+    std::uint64_t memory_bytes = 0; ///< peak
     std::uint64_t pack_bytes = 0;
     double shown_mean_mm = 0.0; ///< mean error of the level that is usually shown
     double min_mean_mm = 0.0;   ///< of the finest level
     std::size_t levels = 0;
 };
 
-/// Makes the built-in amphora of about so many triangles in `folder`, bakes it, and removes both files. `programs`: the
-/// folder of frustumscreen-artifact and frustumscreen-bake.
+/// Makes the built-in amphora of about `triangles` triangles in `folder`, bakes it, and removes both files.
+/// `programs`: the folder of frustumscreen-artifact and frustumscreen-bake.
 [[nodiscard]] Result<ScalingBake> bake_of_amphora(std::int64_t triangles, int size,
                                                   const std::filesystem::path& programs,
                                                   const std::filesystem::path& folder);

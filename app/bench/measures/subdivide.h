@@ -1,4 +1,6 @@
 /// A mesh with more triangles and an unchanged surface.
+///
+/// Threads  pure; any.
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"

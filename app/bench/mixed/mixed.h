@@ -3,9 +3,11 @@
 ///
 /// Time     processor time of all threads for choice, plan and a full redraw, without read-back: for each frame the least of
 ///          some passes over the walk; then the median and the 99th percentile over its frames.
-/// Budget   from what the finest level of every cell costs to what the cheapest way of every cell costs, on this machine.
-///          The paper has a budget of polygons a second, ours one of its time model: of some steps of each, the largest that
-///          keeps the microseconds in the 99th percentile is taken; if none does, the one of least time.
+/// Budgets  a frame's processor time, in equal ratios from the cost of every cell at its finest level down to the
+///          cost of every cell drawn in its cheapest way, on this machine. Each technique is steered by a number of
+///          its own: the paper's by polygons a second, ours by the time that its model predicts. For each budget the
+///          bench tries several of these numbers and takes the largest whose 99th percentile stays within the budget;
+///          if none does, the fastest.
 /// Model    fitted to frames of another walk, in which all cells are drawn alike. So are the paper's weights.
 /// Error    as measure.h, of every Nth frame against the ray cast; popping as popping.h, of every frame, against 16 rays.
 ///

@@ -5,7 +5,7 @@
 ///          switches hard, as the paper does. All else is the exhibit's, so that the choice alone is compared: its relief
 ///          rasterizer, its culling, its depth across cells. The paper draws three faces a cell from back to front and
 ///          merges cells whose boxes collide; both approximate that depth and could only be worse.
-/// Threads  the one of the set, which must outlive the technique.
+/// Threads  that of the set, which must outlive the technique.
 #pragma once
 
 #include "app/bench/mixed/cell_set.h"
@@ -20,7 +20,7 @@ namespace frustumscreen::bench {
 class MixedTechnique {
 public:
     virtual ~MixedTechnique() = default;
-    /// Before the walk's first frame.
+    /// Call before the walk's first frame.
     virtual void begin() = 0;
     /// Chooses, plans and draws the whole picture; the caller waits until it is drawn.
     virtual void draw(std::size_t frame, const BenchPose& pose) = 0;
@@ -38,7 +38,7 @@ public:
 /// Every cell at one share of its levels, 0: the finest, 1: the coarsest; or every cell as relief, 0: the finest.
 [[nodiscard]] std::unique_ptr<MixedTechnique> make_uniform(CellSet& set, double share, bool relief);
 
-/// The work that the time model counts, of all cells drawn so.
+/// The work that the time model counts, of all cells drawn as `make_uniform` draws them.
 [[nodiscard]] scene::FrameWork uniform_work(const CellSet& set, double share, bool relief,
                                             const BenchPose& pose);
 

@@ -1,15 +1,15 @@
 /// The peer of scene::CellChoice: which cells are polygons and which are relief, as Kim 2008 decides it in each frame.
 ///
 /// Eq. (1)  I(A, O) = u P(O) + v / |PA - PO| + w cos(theta_AO) + x S(O), with weights 0..1.
-/// Rule     the most important cells are polygons, as long as the frame's polygons suffice; the others are relief. A cell of
-///          whose relief a texel takes no more than a pixel stays relief ("when each pixel of the texture projects to more
-///          than one pixel on the viewing plane").
-/// Weights  "determined empirically": the search tries a grid of them on a walk of its own and keeps those of the least
-///          error, by the errors that the pack itself has of each cell.
+/// Rule     the most important cells are polygons, as long as the frame's polygons suffice; the others are relief. A
+///          cell whose relief has texels no larger than a pixel stays relief ("when each pixel of the texture
+///          projects to more than one pixel on the viewing plane").
+/// Weights  "determined empirically": the search tries a grid of them on a walk of its own and keeps those with the
+///          least error, by the pack's own errors of each cell.
 ///
 /// Units    pixels; metres; S as a share of the picture, because the paper names no unit and the weights do not exceed 1;
 ///          polygons of one frame: those of a second, over the frames of a second.
-/// Threads  pure; any. `choose_polygons` allocates nothing into lists with enough capacity.
+/// Threads  pure; any. `PaperChoice::choose` allocates nothing once it has seen as many cells.
 /// Errors   none.
 /// Source   Kim 2008, "Switching between representations" and "Building a virtual environment with mixed representation
 ///          objects".
@@ -38,7 +38,7 @@ struct PaperWeights {
 
 [[nodiscard]] double importance(const PaperCell& cell, const PaperWeights& weights);
 
-/// One way of a frame's cells.
+/// Chooses for each cell of a frame, and counts the changes from frame to frame.
 class PaperChoice {
 public:
     PaperChoice(PaperWeights weights, double polygons_a_frame)
@@ -58,7 +58,8 @@ private:
     std::size_t switches_ = 0;
 };
 
-/// The least error, summed over all frames and budgets. `frames`: each with the same cells; `budgets`: polygons of a frame.
+/// The weights with the least error, summed over all frames and budgets. `frames`: each with the same cells;
+/// `budgets`: polygons of a frame.
 [[nodiscard]] PaperWeights find_weights(std::span<const std::vector<PaperCell>> frames,
                                         std::span<const double> budgets);
 

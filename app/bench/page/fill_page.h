@@ -1,7 +1,7 @@
-/// Fills the tables of a page from the CSV files of measurements, and says of each table what came of it.
+/// Fills the tables of a page from the CSV files of measurements, and reports for each table whether it changed.
 ///
 /// Threads  one.
-/// Errors   of csv_table.h and marked_page.h; a mark that names no table; a folder without any CSV of a table.
+/// Errors   as csv_table.h and marked_page.h; a mark that names no table; a folder without any CSV of a table.
 #pragma once
 
 #include "firmware_host/base/result.h"

@@ -3,7 +3,7 @@
 ///
 /// Cost     of a picture: in every table processor time as a multiple of the floor (`cpu_times_floor`), "x floor".
 /// Threads  pure; any.
-/// Errors   of csv_table.h.
+/// Errors   as csv_table.h.
 #pragma once
 
 #include "app/bench/page/csv_table.h"
@@ -36,7 +36,7 @@ struct ReportTable {
 [[nodiscard]] std::vector<ReportTable> error_time_tables();
 /// The tables of `estimate`, `projection` and `shimmer`: the errors that the exhibit estimates, and the visitor's view.
 [[nodiscard]] std::vector<ReportTable> view_tables();
-/// Recordings of hands, replayed by `latency`; docs/bench.md has it.
+/// The table of recordings of hands, replayed by `latency`; it is in docs/bench.md.
 [[nodiscard]] ReportTable hand_table();
 /// The tables of `scaling`, `stability`, `latency` and `ladder`, which need no pack.
 [[nodiscard]] std::vector<ReportTable> packless_tables();

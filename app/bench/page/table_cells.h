@@ -1,4 +1,4 @@
-/// Numbers as the tables of a page have them, and rows of a CSV table by their text.
+/// Formats numbers for the tables of a page, and selects rows of a CSV table by a field's text.
 ///
 /// Threads  pure; any.
 #pragma once
@@ -28,7 +28,7 @@ namespace frustumscreen::bench {
 /// Rows whose field in `column` is `text`.
 [[nodiscard]] Result<std::vector<std::size_t>> rows_with(const CsvTable& table, std::string_view column,
                                                          std::string_view text);
-/// Those of `rows` for which it holds, too.
+/// Those of `rows` that also have `text` in `column`.
 [[nodiscard]] Result<std::vector<std::size_t>> rows_with(const CsvTable& table,
                                                          const std::vector<std::size_t>& rows,
                                                          std::string_view column, std::string_view text);

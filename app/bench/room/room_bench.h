@@ -4,10 +4,10 @@
 ///          least of some passes over the walks; then the median and the 99th percentile over frames. Peers draw every Nth
 ///          frame, the same ones each. The rate is that of the slowest frame.
 /// Error    as room_errors.h; mean over some frames of each walk.
-/// Peers    each at the cheapest of its settings whose error is not above ours, otherwise at its finest. Settings lie from
-///          coarse to fine, and are searched by halves.
-/// Paper    its own experiment at its own numbers: so many polygons a second at 10 frames a second or more, objects of 10,000
-///          polygons, on its walk; beside it larger numbers, up to what this machine keeps.
+/// Peers    each at the cheapest of its settings whose error is not above ours, otherwise at its finest. Settings are
+///          ordered from coarse to fine, and the search bisects them.
+/// Paper    the paper's own experiment with its own numbers: its polygons a second at 10 frames a second or more,
+///          objects of 10,000 polygons, on its walk; then with larger numbers, up to what this machine keeps.
 ///
 /// Threads  the caller's, which holds a context of its own during the call.
 /// Errors   as RoomSet, RoomTruth and RoomShow.

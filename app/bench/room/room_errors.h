@@ -1,8 +1,8 @@
 /// The error of a technique's pictures against the truth, in some frames of each walk.
 ///
-/// Error    as measure.h has it, of one ray through each pixel's centre: the mean distance of the two points, millimetres,
-///          over the pixels hit in both. In a hall this holds the jumps at outlines: a pixel that shows the wall in place of a
-///          vase before it counts the metres between them.
+/// Error    as measure.h has it, of one ray through each pixel's centre: the mean distance of the two points,
+///          millimetres, over the pixels hit in both. In a hall this includes the jumps at outlines: a pixel that
+///          shows the wall instead of a vase in front of it counts the metres between them.
 /// Threads  that of the set; the set must outlive it.
 /// Errors   as RoomTruth; a driver that cannot draw into float pictures.
 #pragma once
@@ -22,7 +22,7 @@ namespace frustumscreen::bench {
 struct RoomError {
     double mean_mm = 0.0; ///< means over the frames
     double p95_mm = 0.0;
-    double silhouette_percent = 0.0; ///< pixels where one sees nothing at all
+    double silhouette_percent = 0.0; ///< pixels that hit something in one of the two pictures alone
     double ms = 0.0;                 ///< processor time of a frame, the median
 };
 

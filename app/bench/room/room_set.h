@@ -40,7 +40,7 @@ struct RoomWays {
 struct RoomSetOptions {
     int samples = 2; ///< a pixel
     std::size_t min_lod_triangles = 150;
-    /// One of meshoptimizer's levels has about so many triangles, for the paper's own experiment.
+    /// Triangles of one of meshoptimizer's levels, about; for the paper's own experiment.
     std::size_t polygons_each = 10'000;
 };
 

@@ -2,13 +2,14 @@
 /// the screen, and draw with the exhibit's plan and renderer at the same samples a pixel.
 ///
 /// ours      the exhibit's own RoomShow, as `render --output screen` has it.
-/// polygons  each object at one level of its pack: the coarsest with a mean error of at most so many millimetres.
+/// polygons  each object at one level of its pack: the coarsest whose mean error is within a limit in millimetres.
 /// relief    each object at one relief of its pack, by the same rule; floor and walls as relief too, or as polygons.
-/// lod       for each object, by its distance, the coarsest of meshoptimizer's levels whose error is at most so many pixels.
+/// lod       for each object, by its distance, the coarsest of meshoptimizer's levels whose error is within a limit
+///           in pixels.
 /// paper     Kim 2008 (paper_choice.h) with Eq. (1) over the objects: the most important are polygons while those of the
 ///           frame suffice, the others are relief with texels of about a pixel, chosen anew in each frame.
 ///
-/// Threads  the one of the set, which must outlive the technique.
+/// Threads  that of the set, which must outlive the technique.
 #pragma once
 
 #include "app/bench/mixed/paper_choice.h"
@@ -58,7 +59,7 @@ public:
 /// The polygons of the paper's way.
 struct PaperPolygons {
     double error_mm = 0.0; ///< the pack's level, as `polygons`
-    std::size_t each = 0;  ///< or, above 0: meshoptimizer's level that is nearest to so many
+    std::size_t each = 0;  ///< or, above 0: triangles; meshoptimizer's level with the nearest number is taken
 };
 [[nodiscard]] std::unique_ptr<RoomTechnique> make_room_paper(RoomSet& set, const PaperWeights& weights,
                                                              const PaperPolygons& polygons,
@@ -66,7 +67,7 @@ struct PaperPolygons {
 /// The weights of least error on these frames, by the packs' own errors.
 [[nodiscard]] PaperWeights room_weights(const RoomSet& set, const PaperPolygons& polygons,
                                         std::span<const RoomFrame> frames);
-/// The polygons of all objects, drawn so.
+/// The number of polygons of all objects, drawn as `polygons` says.
 [[nodiscard]] double all_room_polygons(const RoomSet& set, const PaperPolygons& polygons);
 
 } // namespace frustumscreen::bench

@@ -3,8 +3,8 @@
 ///
 /// Poses    the prop at the table's middle, turned in twelve steps once around, seen by the default eye. Every set-up
 ///          has this place, whatever its zone.
-/// Cost     a frame draws what changed since the one before, as in the exhibit; all set-ups take turns in one run, so that a disturbance of the machine affects them equally; frame times
-///          as timing.h.
+/// Cost     a frame draws what changed since the one before, as in the exhibit. All set-ups take turns in one run, so
+///          that a disturbance of the machine affects them equally; frame times as timing.h.
 /// Threads  the caller's, which holds a context of its own during the call.
 /// Errors   no OpenGL ES; a picture that the driver cannot hold.
 #pragma once

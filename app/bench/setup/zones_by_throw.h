@@ -25,7 +25,7 @@ struct ThrowZone {
 [[nodiscard]] std::vector<ThrowZone> zones_by_throw(const settings::Settings& settings,
                                                     std::span<const double> throw_ratios);
 [[nodiscard]] std::string zones_csv(std::span<const ThrowZone> zones);
-/// For a person.
+/// The same as a text table.
 [[nodiscard]] std::string zones_table(std::span<const ThrowZone> zones);
 
 } // namespace frustumscreen::bench

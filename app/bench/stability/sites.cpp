@@ -1,6 +1,6 @@
-// A site in the prop: zooms from 1 to the largest, the way into a region and back, a place where four regions meet, regions without
-// height or extent, depths behind a face that differ a millionfold, what the face cuts off, 32 bits of a region at any size, and eyes on a face's
-// plane.
+// A site in the prop: zooms from 1 to the largest, the way into a region and back, a place where four regions meet,
+// regions without height or extent, depths behind a face that differ a millionfold, what the face cuts off, 32 bits
+// of a region at any size, and eyes on a face's plane.
 
 #include "app/bench/stability/picture.h"
 #include "app/bench/stability/sweep.h"

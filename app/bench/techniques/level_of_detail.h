@@ -3,6 +3,8 @@
 ///
 /// Vertices are joined where position, texture coordinate, colour and material are all equal, so seams stay
 /// in place and every triangle keeps its material.
+///
+/// Threads  pure; any.
 #pragma once
 
 #include "assets_baked/bake/source_mesh.h"

@@ -1,8 +1,8 @@
 /// The surface that a scene of `frustumscreen-bench torch` draws, for rays: its levels' triangles, and its reliefs as they are
 /// rasterized.
 ///
-/// So a shadow is held against the surface that casts it and the one that it falls on. How far those lie from the source,
-/// other commands measure.
+/// A shadow is therefore compared with the drawn surfaces that cast and receive it. Other commands measure how far
+/// these surfaces are from the source.
 ///
 /// Frames   prop. Set-up in 64-bit; Embree (float, robust) only finds the hit.
 /// Threads  const; any.
@@ -34,7 +34,8 @@ public:
         glm::dvec3 point_m{0.0};
         glm::dvec3 normal{0.0}; ///< unit, outward
     };
-    /// First hit of origin + t direction, t > 0. Triangles stop a ray from both sides, reliefs from before, as they are drawn.
+    /// First hit of origin + t direction, t > 0. Triangles stop a ray from both sides, reliefs from their front
+    /// alone, as they are drawn.
     [[nodiscard]] Hit first_hit(const glm::dvec3& origin, const glm::dvec3& direction) const;
 
 private:

@@ -3,8 +3,8 @@
 /// Time     processor time of all threads for the plan and a full redraw, without read-back: for each frame the least of
 ///          some passes, which the techniques take in turn; then the median and the 99th percentile over the frames.
 ///          `paper_steered` is steered by its first pass; the others repeat those tolerances.
-/// Error    of the intensity against torch_truth.h, in per cent of the full one, over the pixels that the truth lights, of
-///          some frames. A pixel's code has 8 bits: that alone is up to 0.4 %, where light is full.
+/// Error    the intensity's difference from torch_truth.h, in per cent of the full intensity, over the pixels that
+///          the truth lights, in some frames. The 8 bits of a pixel's code alone cause up to 0.4 % at full light.
 ///
 /// Threads  that of the set.
 /// Errors   as TorchSet, draw_sweep and PaperTorch.

@@ -82,7 +82,7 @@ void TorchSet::add_scene(std::string name, TorchSurface drawn, TorchSurface poly
             indices += part.level.triangles ? part.level.triangles->indices.size() : 0;
         }
         scene.max_indices = std::max(scene.max_indices, indices);
-        scene.triangles = indices / 3; // the polygons' at last
+        scene.triangles = indices / 3; // in the end, those of the polygons
     }
     scenes_.push_back(std::move(scene));
 }

@@ -7,7 +7,7 @@
 /// paper_steered   the same; the tolerance is steered from frame to frame to hold a frame time.
 /// paper_fixed     the same at the mean tolerance of `paper_steered`.
 /// paper_curvature the same, split by the bound of the error (torch/splitting.h).
-/// Threads         the one of the set, which must outlive the technique.
+/// Threads         that of the set, which must outlive the technique.
 /// Errors          as PaperTorch.
 #pragma once
 

@@ -3,17 +3,18 @@
 ///
 /// Point    the one that the drawn surface shows through the pixel's centre, so that a surface's own error, which other
 ///          commands measure, is no error of the light.
-/// Shadows  by rays against the drawn surface. A pixel counts as lit, or as in shadow, if 17 rays say so: through its point, and
-///          on circles of half a pixel and a pixel of the torch's own picture around it; the surface beside the point is taken as
-///          flat.
-///          A hit before that plane by less than half such a pixel's width along the axis counts as the surface itself, which bends:
-///          a bound across the plane would be met far along a grazing ray, by what shades the point. A point is clearly in
-///          shadow if it lies farther behind the caster than one such pixel is wide, or if the torch meets its surface from
+/// Shadows  by rays against the drawn surface. A pixel counts as lit, or as in shadow, if 17 rays say so: through its
+///          point, and on circles of half a pixel and a pixel of the torch's own picture around it; the surface
+///          beside the point is taken as flat. The surface may bend, so a hit in front of that plane by less than
+///          half such a pixel's width, along the axis, counts as the surface itself. (A bound across the plane would
+///          also take what shades the point, far along a grazing ray, for the surface.) A point is clearly in shadow
+///          if it lies farther behind the caster than one such pixel is wide, or if the torch meets its surface from
 ///          behind. Within a degree of edge-on it is unclear.
-/// Left out others, those within one such pixel of the beam's edge and within 1 % of its reach, and the points that
-///          another surface hides from the eye's ray, which happens to roundings on outlines. IntensityError counts them.
+/// Left out all other pixels; those within one such pixel of the beam's edge and within 1 % of its reach; and the
+///          points that another surface hides from the eye's ray, which rounding causes on outlines. IntensityError
+///          counts them.
 /// Frames   prop.
-/// Threads  `cast` uses every core inside; one call at a time.
+/// Threads  `cast_torch` uses every core inside; one call at a time.
 /// Errors   none.
 #pragma once
 

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] static Result<std::shared_ptr<const TracedMesh>>
     build(std::shared_ptr<const bake::SourceMesh> mesh, const glm::dmat4& prop_from_artifact,
           bake::Sides sides = bake::Sides::Both);
-    /// On a device that other scenes use too, so that one of them may have it as an instance.
+    /// Builds it on a device that other scenes use too, so that one of them may have it as an instance.
     [[nodiscard]] static Result<std::shared_ptr<const TracedMesh>>
     build_on(RTCDevice device, std::shared_ptr<const bake::SourceMesh> mesh,
              const glm::dmat4& prop_from_artifact, bake::Sides sides = bake::Sides::Both);

@@ -7,7 +7,7 @@
 ///
 /// Frames   points and the eye in the prop's frame, metres; pixels as `Pinhole` has them.
 /// Set-up   vertices are placed and hits refined in 64-bit; Embree (float, robust) only finds the triangle.
-/// Threads  `relief_draw` and `cover` use every core inside; make one call at a time.
+/// Threads  `cast` and `cover` use every core inside; make one call at a time.
 #pragma once
 
 #include "app/bench/truth/shown_light.h"
@@ -64,8 +64,8 @@ public:
     [[nodiscard]] image::Image<float> cover(const geometry::PropShape& prop, const TruthView& view,
                                             const TruthPicture& picture, const glm::ivec2& rays) const;
 
-    /// From now on, `relief_draw` with sixteen rays multiplies colours by the museum's light on the same source: for
-    /// packs that were baked with light.
+    /// From now on, `cast` with sixteen rays multiplies colours by the museum's light on the same source: for packs
+    /// that were baked with light.
     void light_by(std::shared_ptr<const LitSource> lit) { lit_ = std::move(lit); }
 
     /// The target of the rays, for the ray-cast peer.

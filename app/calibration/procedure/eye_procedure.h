@@ -13,7 +13,6 @@
 ///          the largest residual.
 /// Frames   tracker K, as the device reports; table T.
 /// Threads  pure; any.
-/// Threads  pure; any.
 #pragma once
 
 #include "app/calibration/eye_fit.h"

@@ -1,10 +1,11 @@
-/// The skeleton of the ways through a calibration, by touch, by a camera and by eye, for one person with two buttons.
+/// The common part of the calibration procedures, by touch, by a camera and by eye, for one person with two buttons.
 ///
 /// Begin    The table shows what is needed, or why the calibration cannot be done. Next begins, Back leaves.
 ///          After `to_begin` without a press the procedure ends by itself, so that the exhibit returns if a
 ///          person forgot the table or got here by chance.
 /// Way      A way is a table of stages and their step functions. In a stage without a row a step changes nothing.
-/// End      In stage Solve the caller computes the calibration and passes the verdict to `judge`. Each way defines what the buttons do then.
+/// End      In stage Solve the caller computes the calibration and passes the verdict to `judge`. Each way defines
+///          what the buttons do then.
 /// Time     a parameter; the devices' own rates, whatever they are.
 /// Threads  one caller.
 #pragma once

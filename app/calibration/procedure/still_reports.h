@@ -20,7 +20,7 @@ struct StillLimits {
 
 class StillReports {
 public:
-    /// `strays`: so many reports in a row elsewhere mean a move; fewer are ignored.
+    /// `strays`: the number of consecutive reports elsewhere that mean a move; fewer are ignored.
     explicit StillReports(int strays) : strays_(strays) {}
     StillReports(int strays, StillLimits limits) : strays_(strays), limits_(limits) {}
 

@@ -58,7 +58,7 @@ public:
     explicit TouchProcedure(std::vector<Cross> crosses, std::string problem = {})
         : Procedure(std::move(problem)), crosses_(std::move(crosses)), asked_(crosses_.size()),
           touches_(crosses_.size()) {}
-    /// By the first `asked` crosses; the others follow while the verdict asks for more touches.
+    /// A procedure with the first `asked` crosses; the others follow while the verdict asks for more touches.
     TouchProcedure(TouchTask task, std::vector<Cross> crosses, std::size_t asked, std::string problem = {})
         : Procedure(std::move(problem)), task_(task), crosses_(std::move(crosses)), asked_(asked),
           touches_(crosses_.size()) {}

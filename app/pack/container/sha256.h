@@ -1,4 +1,6 @@
 /// SHA-256 (FIPS 180-4), by libsodium.
+///
+/// Threads  any; a Sha256 has one caller.
 #pragma once
 
 #include <cstddef>

@@ -31,9 +31,9 @@ enum class Packing { Stored, Deflated };
 /// Dates are fixed, so that equal entries give equal bytes.
 class ZipWriter {
 public:
-    /// In memory.
+    /// Writes the archive into memory.
     ZipWriter();
-    /// Into an empty file that is open for reading and writing; it must outlive the writer.
+    /// Writes it into an empty file that is open for reading and writing and must outlive the writer.
     explicit ZipWriter(int descriptor);
     ~ZipWriter();
     ZipWriter(const ZipWriter&) = delete;

@@ -25,7 +25,7 @@ double mm_per_box_of(const pack::Pack& pack, const bake::BakedProp& prop) {
     return 1e3 * pack::place(pack, usual).metres_per_box;
 }
 
-/// A cell with geometry, as long as `length` of the whole's box.
+/// The longest edge of the box of a cell with geometry.
 double length_of(const pack::PackCell& cell) {
     const glm::dvec3 size = cell.high - cell.low;
     return std::max({size.x, size.y, size.z});

@@ -54,9 +54,11 @@ struct BakeResult {
 [[nodiscard]] PreviewFacts preview_facts(const BakeResult& result);
 /// Ends with a line break.
 [[nodiscard]] std::string report_text(const BakeResult& result);
-/// {file, bytes, title, seconds, processor_seconds, memory_bytes, prop, size_m, up, front, turn_deg, scale, levels: [{technique, triangles, bytes,
-/// mean_mm, p95_mm, max_mm, colour_rmse}], default_level, spoken: [languages], silent: [], lost: [],
-/// guessed: [], taken: [], missing: [], torches: [], states: [], site: [], cells: {taken: none, nodes or found, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]}, scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
+/// {file, bytes, title, seconds, processor_seconds, memory_bytes, prop, size_m, up, front, turn_deg, scale,
+/// levels: [{technique, triangles, bytes, mean_mm, p95_mm, max_mm, colour_rmse}], default_level,
+/// spoken: [languages], silent: [], lost: [], guessed: [], taken: [], missing: [], torches: [], states: [], site: [],
+/// cells: {taken: none, nodes or found, why, cells: [{name, triangles}], behaviours: [{name, seconds, trigger}]},
+/// scan: {as --check --json has it}, id, licence, author, source, page}; `page` only if there is one
 [[nodiscard]] nlohmann::ordered_json report_json(const BakeResult& result);
 
 } // namespace frustumscreen::programs

@@ -27,7 +27,7 @@ struct CheckedScan {
 /// `arguments.input` is the scan.
 [[nodiscard]] CheckedScan check_scan(BakeArguments arguments);
 
-/// Without the number of losses.
+/// Everything but the number of losses.
 [[nodiscard]] ScanSummary summary_of(const bake::SourceMesh& mesh, const bake::ScanMeasures& measures);
 
 } // namespace frustumscreen::programs

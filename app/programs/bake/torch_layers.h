@@ -18,7 +18,7 @@ namespace frustumscreen::programs {
 [[nodiscard]] Result<void> add_layers(const BakeRequest& request, bake::SourceMesh& mesh);
 /// The layer that a torch's stage shows, in the order of SourceMesh::layers.
 [[nodiscard]] std::size_t layer_of(const BakeRequest& request, const folder::ArtifactTorchStage& stage);
-/// The one that a state has, which covers the whole surface.
+/// The layer of a state, which covers the whole surface, in the same order.
 [[nodiscard]] std::size_t state_layer_of(const BakeRequest& request, const folder::ArtifactTorchStage& stage);
 
 } // namespace frustumscreen::programs

@@ -1,4 +1,6 @@
 /// One line of progress on a terminal, shown after two seconds; silent in a pipe.
+///
+/// Threads  one caller.
 #pragma once
 
 #include <chrono>

@@ -16,7 +16,7 @@ class TimeLeft {
 public:
     /// `ends`: of each stage, the share of the work that is done when it ends; ascending, the last is 1.
     TimeLeft(std::vector<double> ends, double expected_s);
-    /// So much is done at this time; later calls have later times and larger shares.
+    /// Call when the share `done` of the work is done at `now_s`; both grow from call to call.
     void report(double now_s, double done);
     [[nodiscard]] double seconds(double now_s) const;
 

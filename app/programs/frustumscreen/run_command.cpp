@@ -124,7 +124,8 @@ struct OpenExhibit {
     std::unique_ptr<show::ScreenOutput> screen; ///< none: the settings have no screen
 };
 
-/// The status reports a screen that cannot be opened; the projector does not wait for it. The alignment pattern has no room.
+/// Null if the settings have no screen; beside the alignment pattern none is opened either. The status reports a
+/// screen that cannot be opened; the projector does not wait for it.
 std::unique_ptr<show::ScreenOutput> open_screen(const RunRequest& request, const settings::Settings& settings,
                                                 display::Display& projector, MonotonicTime start) {
     if (!settings.screen.exists() || request.pattern) {

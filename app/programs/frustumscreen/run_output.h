@@ -13,8 +13,9 @@
 
 namespace frustumscreen::programs {
 
-/// Writes frame_00000.png ..., with a screen screen_00000.png ... beside them, poses.csv with their poses, frames.csv with every frame of the run, and sound.wav if
-/// `sound` recorded it. Removes the visitor's cameras that an earlier call of render left there.
+/// Writes frame_00000.png ..., with a screen screen_00000.png ... beside them, poses.csv with their poses, frames.csv
+/// with every frame of the run, and sound.wav if `sound` recorded it. Removes the visitor's cameras that an earlier
+/// call of render left there.
 [[nodiscard]] Result<void> write_output(const std::filesystem::path& folder, const show::LoopResult& result,
                                         const sound::Sound* sound);
 

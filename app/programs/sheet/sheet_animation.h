@@ -6,6 +6,7 @@
 ///
 /// Library  libwebp's WebPAnimEncoder.
 /// Errors   an unreadable picture; the encoder has no memory.
+/// Threads  one; the visitor's views use all cores inside.
 #pragma once
 
 #include "app/programs/sheet/sheet_frames.h"

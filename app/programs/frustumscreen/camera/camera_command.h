@@ -3,7 +3,8 @@
 
 namespace frustumscreen::programs {
 
-/// Returns the process's exit status.
+/// Arguments after 'camera'. Exit status: 0 done; 1 the work failed, the settings' camera is not well or, with
+/// --is-on, the settings have none; 2 wrong use. Ends the process if the device hangs.
 [[nodiscard]] int camera_command(int argc, char** argv);
 
 } // namespace frustumscreen::programs

@@ -4,6 +4,7 @@
 
 namespace frustumscreen::programs {
 
+/// Arguments after 'config'. Exit status: 0 done, 1 the work failed, 2 wrong use.
 int config_command(int argc, char** argv);
 
 } // namespace frustumscreen::programs

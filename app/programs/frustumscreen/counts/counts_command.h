@@ -3,6 +3,8 @@
 
 namespace frustumscreen::programs {
 
+/// Arguments after 'counts'. Exit status: 0 done, 1 the work failed or a file of the counts cannot be read, 2 wrong
+/// use.
 int counts_command(int argc, char** argv);
 
 } // namespace frustumscreen::programs

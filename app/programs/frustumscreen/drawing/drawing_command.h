@@ -3,6 +3,7 @@
 
 namespace frustumscreen::programs {
 
+/// Arguments after 'drawing'. Exit status: 0 done, 1 the work failed, 2 wrong use.
 int drawing_command(int argc, char** argv);
 
 } // namespace frustumscreen::programs

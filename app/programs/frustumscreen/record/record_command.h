@@ -3,7 +3,7 @@
 
 namespace frustumscreen::programs {
 
-/// Returns the process's exit status.
+/// Arguments after 'record'. Exit status: 0 done, 1 the work failed, 2 wrong use. Ends the process if a device hangs.
 [[nodiscard]] int record_command(int argc, char** argv);
 
 } // namespace frustumscreen::programs

@@ -22,7 +22,7 @@ struct ReportPlaces {
     status::StatusPlaces status;
 };
 
-/// The shortest first.
+/// The texts of a report, the shortest file first.
 [[nodiscard]] std::vector<report::ReportFile> report_files(const ReportPlaces& places);
 
 } // namespace frustumscreen::programs

@@ -3,6 +3,7 @@
 
 namespace frustumscreen::programs {
 
+/// Arguments after 'states'. Exit status: 0 done, 2 wrong use.
 int states_command(int argc, char** argv);
 
 } // namespace frustumscreen::programs
