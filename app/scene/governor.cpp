@@ -160,7 +160,7 @@ void Governor::change_to(std::size_t quality_level, MonotonicTime now) {
 }
 
 Nanoseconds Governor::delay_of(Change change) const {
-    return change == Change::Relief ? relief_delay : (change == Change::Try ? try_backoff_ : backoff_);
+    return change == Change::Relief ? leave_delay : (change == Change::Try ? try_backoff_ : backoff_);
 }
 
 void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {

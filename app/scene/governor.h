@@ -94,7 +94,7 @@ public:
     static constexpr Nanoseconds dwell = std::chrono::seconds(1);
     /// A level is left when it was too slow for this long: by then the effect of a single slow frame has
     /// decayed, and a lasting change is fully known.
-    static constexpr Nanoseconds relief_delay = std::chrono::milliseconds(250);
+    static constexpr Nanoseconds leave_delay = std::chrono::milliseconds(250);
     static constexpr Nanoseconds min_backoff = std::chrono::seconds(2);
     static constexpr Nanoseconds max_backoff = std::chrono::seconds(512);
 
