@@ -118,7 +118,7 @@ public:
     [[nodiscard]] std::uint64_t ignored() const { return ignored_; } ///< values that are not times
 
 private:
-    enum class Change { None, Relief, Quality, Try };
+    enum class Change { None, Leave, Quality, Try };
     [[nodiscard]] Nanoseconds delay_of(Change change) const;
     [[nodiscard]] std::size_t wanted() const;
     [[nodiscard]] bool fits(std::size_t quality_level) const;
