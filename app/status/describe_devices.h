@@ -140,7 +140,8 @@ void device_fields(auto& fields, auto& status) {
                                              : Metric{"drifted", "1: the picture must be calibrated again."});
     fields.field("prop_by", status.prop_by,
                  "source of the prop's pose: `tracker` or `tags`; empty: none, the prop stands");
-    fields.field("hand_overs", status.hand_overs, "how often the source changed between tracker and tags");
+    fields.field("hand_overs", status.source_changes,
+                 "how often the source changed between tracker and tags");
     fields.object_or_null(
         "torch", status.torch,
         "the torch that was taken last ([torch.md](torch.md)): `by`: `tracker` (its station 3) or "
