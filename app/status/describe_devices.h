@@ -23,7 +23,7 @@ void tracker_fields(auto& fields, auto& counts) {
                  Metric{"tracker_samples_lost_total", "Samples lost, by their numbers."});
     fields.field("duplicated", counts.duplicated);
     fields.field("reordered", counts.reordered);
-    fields.field("strange", counts.strange);
+    fields.field("strange", counts.implausible);
     fields.field("unusable", counts.unusable);
     fields.field("broken", counts.broken, {},
                  Metric{"tracker_samples_broken_total", "How often bytes were discarded."});
