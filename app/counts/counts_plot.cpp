@@ -94,7 +94,8 @@ public:
     }
     [[nodiscard]] std::string take(double height) const {
         return fmt::format(
-            R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" font-family="'Noto Sans','Segoe UI','Helvetica Neue',Arial,sans-serif">
+            R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}")"
+            R"( font-family="'Noto Sans','Segoe UI','Helvetica Neue',Arial,sans-serif">
 <rect width="{0:.0f}" height="{1:.0f}" fill="#ffffff"/>
 {2}</svg>
 )",

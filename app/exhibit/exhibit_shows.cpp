@@ -229,7 +229,7 @@ std::optional<WordIndex> Exhibit::word() const {
         return guidance != nullptr && guidance->stage >= guidance::GuidanceStage::Text
                    ? advice_.find(guidance::words_key(*guidance), language)
                    : std::nullopt;
-    case Words::NarrationSequencer:
+    case Words::Narration:
         break;
     case Words::None:
         return torch_says_ ? torch_word() : window_word();

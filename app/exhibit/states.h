@@ -42,7 +42,7 @@ enum class Event : std::uint8_t {
 inline constexpr std::size_t event_count = 15;
 
 /// The words on the table beside the caption, or in its place.
-enum class Words : std::uint8_t { None, Invitation, Advice, NarrationSequencer, Fault };
+enum class Words : std::uint8_t { None, Invitation, Advice, Narration, Fault };
 
 /// The properties of a state: its picture, words and voice; `shows` describes them for people.
 struct StateNote {
@@ -64,7 +64,7 @@ inline constexpr std::array<StateNote, state_count> state_notes{{
      "before"},
     {State::Guide, "guide", true, true, Words::Advice, true,
      "as view, with advice as a sign, in words and aloud"},
-    {State::Describe, "describe", true, true, Words::NarrationSequencer, true,
+    {State::Describe, "describe", true, true, Words::Narration, true,
      "as view, with narration in words and aloud, and signs"},
     {State::Degraded, "degraded", true, false, Words::Advice, true,
      "the prop's pose is unknown: the artifact turns at its idle place; advice in words and aloud"},

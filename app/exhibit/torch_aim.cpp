@@ -46,16 +46,16 @@ LitObject around(std::span<const glm::dvec3> points) {
 TorchAim aim_of(const torch::Beam& beam, const geometry::RigidTransform& table_from_torch,
                 const LitObject& object) {
     const glm::dvec3 to = object.centre_m - table_from_torch.translation;
-    const double way = glm::length(to);
-    if (way <= object.radius_m) {
+    const double distance_m = glm::length(to);
+    if (distance_m <= object.radius_m) {
         return TorchAim::Lights;
     }
     const glm::dvec3 along = direction_of(table_from_torch);
     const double off = std::atan2(glm::length(glm::cross(along, to)), glm::dot(along, to));
-    if (off > half_angle(beam) + std::asin(object.radius_m / way)) {
+    if (off > half_angle(beam) + std::asin(object.radius_m / distance_m)) {
         return TorchAim::Past;
     }
-    return way - object.radius_m > torch::reach_m(beam) ? TorchAim::TooFar : TorchAim::Lights;
+    return distance_m - object.radius_m > torch::reach_m(beam) ? TorchAim::TooFar : TorchAim::Lights;
 }
 
 std::optional<TorchAim> TorchAdvice::step(MonotonicTime now, const std::optional<TorchAim>& aim) {
@@ -94,9 +94,9 @@ std::optional<TorchSpot> spot_on_table(const torch::Beam& beam,
     // A plane cuts the cone in an ellipse of this eccentricity.
     const double eccentricity = std::cos(descent) / std::cos(half);
     spot.half_across_m = spot.half_along_m * std::sqrt(std::fmax(0.0, 1.0 - eccentricity * eccentricity));
-    const double way = height / std::sin(descent);
+    const double distance_m = height / std::sin(descent);
     spot.share = geometry::ease((far_edge - min_descent_rad) / (faint_descent_rad - min_descent_rad)) *
-                 (1.0 - geometry::ease((way - bright_m) / (dark_m - bright_m)));
+                 (1.0 - geometry::ease((distance_m - bright_m) / (dark_m - bright_m)));
     return spot;
 }
 

@@ -18,8 +18,8 @@ std::string_view disk_of(std::string_view import_id) {
 
 } // namespace
 
-std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, std::string import_id,
-                                      std::string_view service_result, std::uint64_t set_number) {
+std::optional<ImportReport> final_report_of(const std::optional<ImportReport>& last, std::string import_id,
+                                            std::string_view service_result, std::uint64_t set_number) {
     const bool is_ours = last && last->import_id == import_id;
     if (last && (is_ours ? is_last(last->stage) : !is_last(last->stage))) {
         return std::nullopt;
@@ -52,15 +52,15 @@ std::optional<ImportReport> last_word(const std::optional<ImportReport>& last, s
     return report;
 }
 
-bool is_to_be_told_unmounted(const std::optional<ImportReport>& last, std::string_view import_id) {
+bool must_report_unmounted(const std::optional<ImportReport>& last, std::string_view import_id) {
     if (!last || last->import_id == import_id) {
         return !last;
     }
     return disk_of(last->import_id) != disk_of(import_id) || last->stage == ImportStage::Failed;
 }
 
-Nanoseconds wait_before_first_word(const std::optional<ImportReport>& last, std::string_view import_id,
-                                   Nanoseconds age, Nanoseconds stands) {
+Nanoseconds delay_before_first_report(const std::optional<ImportReport>& last, std::string_view import_id,
+                                      Nanoseconds age, Nanoseconds stands) {
     if (!last || last->import_id == import_id || !is_last(last->stage)) {
         return Nanoseconds(0);
     }

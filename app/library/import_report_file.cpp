@@ -29,7 +29,7 @@ void wait_for_readers(const std::filesystem::path& file, std::string_view import
     const Nanoseconds age = std::chrono::seconds(now.tv_sec - status.st_mtim.tv_sec) +
                             std::chrono::nanoseconds(now.tv_nsec - status.st_mtim.tv_nsec);
     const auto stands = std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(stands_s));
-    std::this_thread::sleep_for(wait_before_first_word(read_import_report(file), import_id, age, stands));
+    std::this_thread::sleep_for(delay_before_first_report(read_import_report(file), import_id, age, stands));
 }
 
 } // namespace frustumscreen::library

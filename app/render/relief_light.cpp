@@ -37,7 +37,7 @@ struct Uniforms {
     bool round, over;
     float max_square; ///< of the distance from the torch
     glm::vec4 fall;
-    glm::vec2 way; ///< up to which light is full; 1 / (dark - full)
+    glm::vec2 falloff_range; ///< distance up to which light is full; 1 / (dark - full)
     float opacity;
     glm::vec3 colour;
     float per_cubic_metre, most; ///< FaceLight
@@ -57,7 +57,7 @@ struct Uniforms {
         over = light.torch.blend == torch::Blend::Over;
         max_square = light.reach_m * light.reach_m;
         fall = fall_of(beam);
-        way = glm::vec2(beam.full_m, 1.0 / (beam.dark_m - beam.full_m));
+        falloff_range = glm::vec2(beam.full_m, 1.0 / (beam.dark_m - beam.full_m));
         opacity = light.torch.stages_at.front().opacity * light.torch.brightness;
         colour = stage.colour;
         const scene::FaceLight& gain = plan.faces[static_cast<std::size_t>(draw.face)].light;
@@ -102,11 +102,12 @@ FRUSTUMSCREEN_INLINE Ints in_beam(const Uniforms& uniforms, const PlaceLanes& at
     return in;
 }
 
-FRUSTUMSCREEN_INLINE Floats intensity_at(const Uniforms& uniforms, Floats square) {
-    const Floats beyond = (root_of(square) - uniforms.way.x) * uniforms.way.y;
+FRUSTUMSCREEN_INLINE Floats intensity_at(const Uniforms& uniforms, Floats squared_distance) {
+    const Floats beyond = (root_of(squared_distance) - uniforms.falloff_range.x) * uniforms.falloff_range.y;
     const Floats t = relief::least(relief::most(beyond, Floats{}), all(1.0F));
     const glm::vec4& fall = uniforms.fall;
-    return relief::least(all(1.0F), fall.x / square) * (1.0F - t * (fall.y + t * (fall.z + t * fall.w)));
+    return relief::least(all(1.0F), fall.x / squared_distance) *
+           (1.0F - t * (fall.y + t * (fall.z + t * fall.w)));
 }
 
 /// The factor of the surface's own colours.

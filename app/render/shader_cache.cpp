@@ -33,7 +33,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::Count)> unif
     "depth_from_nearness",
     "beam",
     "fall",
-    "way",
+    "falloff_range",
     "inverse_z",
     "content_kind",
     "stage_kind",

@@ -42,7 +42,7 @@ enum class Uniform : std::size_t {
     // Torches (torch_shader.h):
     Beam,
     Fall,
-    Way,
+    FalloffRange,
     InverseZ,
     ContentKind,
     StageKind,

@@ -131,7 +131,7 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
         }
         if (on_processor) {
             const relief::TileMask asked = meshes ? tiles_in(light.torch.beam) : painted.asked_of(k);
-            cast_view(light, view, asked, store);
+            rasterize_view(light, view, asked, store);
             if (painted.lights_here()) {
                 painted.light_here(plan, k, &shadow_map_);
             }
@@ -148,8 +148,8 @@ int TorchPass::see(const scene::FramePlan& plan, const GpuStore& store, const Sh
     return calls;
 }
 
-void TorchPass::cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
-                          const relief::TileMask& asked, const GpuStore& store) {
+void TorchPass::rasterize_view(const scene::TorchLight& light, const scene::FramePlan& view,
+                               const relief::TileMask& asked, const GpuStore& store) {
     if (asked.bounds().empty()) {
         return;
     }

@@ -52,8 +52,8 @@ private:
     };
     [[nodiscard]] Result<void> make_targets();
     /// Finds the nearness of the surfaces in some tiles of the torch's view, on the processor.
-    void cast_view(const scene::TorchLight& light, const scene::FramePlan& view,
-                   const relief::TileMask& asked, const GpuStore& store);
+    void rasterize_view(const scene::TorchLight& light, const scene::FramePlan& view,
+                        const relief::TileMask& asked, const GpuStore& store);
     /// Copies what lies within the bounds of the shadow map into the target's texture.
     void upload_shadow(const PixelRectangle& bounds, const Target& target);
     /// Draws the torch's view, with or without colours; or the depths of the surfaces that face away from it. Returns the number

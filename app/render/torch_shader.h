@@ -20,8 +20,8 @@ namespace frustumscreen::render {
 inline constexpr std::string_view torch_light = R"(
 #define MAX_STAGES 3
 uniform vec4 beam;               // x / z and y / z times xy: -1..1; reach; 1: round
-uniform vec4 fall;               // of the intensity: this over the way's square at most; factors of t, t^2, t^3, which it falls by
-uniform vec4 way;                // up to which it is full; 1 / (dark - full); brightness; the ruler's mm a metre
+uniform vec4 fall;               // of the intensity: this over the squared distance at most; factors of t, t^2, t^3, which it falls by
+uniform vec4 falloff_range;      // distance up to which it is full; 1 / (dark - full); brightness; the ruler's mm a metre
 uniform highp vec3 inverse_z;    // of a texel of `shadow`: factor, offset; share of z by which nothing shades itself
 uniform int content_kind;        // number of stages
 uniform ivec2 stage_kind[MAX_STAGES];  // source, mix
@@ -42,9 +42,9 @@ vec3 decoded(vec3 code) {
     return mix(code / 12.92, pow((code + 0.055) / 1.055, vec3(2.4)), step(0.04045, code));
 }
 
-float intensity_at(float square) { // of the way
-    float t = clamp((sqrt(square) - way.x) * way.y, 0.0, 1.0);
-    return min(1.0, fall.x / square) * (1.0 - t * (fall.y + t * (fall.z + t * fall.w)));
+float intensity_at(float squared_distance) {
+    float t = clamp((sqrt(squared_distance) - falloff_range.x) * falloff_range.y, 0.0, 1.0);
+    return min(1.0, fall.x / squared_distance) * (1.0 - t * (fall.y + t * (fall.z + t * fall.w)));
 }
 
 #if CONTENT_PARTS & 64
@@ -62,7 +62,7 @@ bool is_shaded(vec2 at, float z) {
 
 // By which a place that was found by its depth may lie too far away: two steps of 24 bits.
 float place_error = 0.0;
-float error_of(float way_from_eye, float depth_left) { return 2.4e-7 * way_from_eye / (depth_left * depth_left); }
+float error_of(float distance_from_eye, float depth_left) { return 2.4e-7 * distance_from_eye / (depth_left * depth_left); }
 
 bool is_lit(vec3 p) {
     vec2 at = p.xy / p.z * beam.xy;
@@ -120,7 +120,7 @@ vec4 stage(int k, vec2 place, float pixel, vec3 p, vec4 layer) {
 #endif
 #if CONTENT_PARTS & 4
     if (source >= 4 && source <= 6) {
-        colour.a = effect(source, from_middle, stage_size[k], pixel, 2.0 * way.w * p.z / beam.x);
+        colour.a = effect(source, from_middle, stage_size[k], pixel, 2.0 * falloff_range.w * p.z / beam.x);
     }
 #endif
 #if CONTENT_PARTS & 8
@@ -175,7 +175,7 @@ void light(vec3 p, vec4 layer, float share, float pixel_m) {
         discard;
     }
     vec4 colour = content_at(place, pixel, p, layer);
-    share *= colour.a * way.z * intensity_at(dot(p, p));
+    share *= colour.a * falloff_range.z * intensity_at(dot(p, p));
 #if CONTENT_PARTS & 32
     result = vec4(colour.rgb * surface_gain(), share);
 #else

@@ -20,9 +20,9 @@ void set_beam(const Shader& shader, const scene::TorchLight& light, const glm::v
                 light.reach_m, beam.shape == torch::Shape::Round ? 1.0F : 0.0F);
     const glm::vec4 fall = fall_of(beam);
     glUniform4fv(shader.location(Uniform::Fall), 1, glm::value_ptr(fall));
-    const glm::vec4 way(beam.full_m, 1.0 / (beam.dark_m - beam.full_m), light.torch.brightness,
-                        1e3 / light.torch.scale);
-    glUniform4fv(shader.location(Uniform::Way), 1, glm::value_ptr(way));
+    const glm::vec4 falloff_range(beam.full_m, 1.0 / (beam.dark_m - beam.full_m), light.torch.brightness,
+                                  1e3 / light.torch.scale);
+    glUniform4fv(shader.location(Uniform::FalloffRange), 1, glm::value_ptr(falloff_range));
     glUniform3f(shader.location(Uniform::InverseZ), inverse_z.x, inverse_z.y,
                 static_cast<float>(slack_of(light)));
 }
@@ -50,7 +50,7 @@ void set_stages(const Shader& shader, const scene::PlacedTorch& torch) {
 
 } // namespace
 
-/// (full / way)^2, but for InverseSquare without bound; and the polynomial's share, square and cube.
+/// (full / distance)^2, but for InverseSquare without bound; and the polynomial's share, square and cube.
 glm::vec4 fall_of(const torch::Beam& beam) {
     constexpr float unbounded = 1e30F;
     switch (beam.attenuation) {

@@ -11,8 +11,9 @@ namespace frustumscreen::residency {
 
 namespace {
 
-KnownWay way_of(const scene::QualityLevel& shows, std::uint32_t number, const pack::LevelError& error,
-                scene::SeenLevel seen, double work, std::uint64_t bytes) {
+KnownQualityLevel known_level_of(const scene::QualityLevel& shows, std::uint32_t number,
+                                 const pack::LevelError& error, scene::SeenLevel seen, double work,
+                                 std::uint64_t bytes) {
     const pack::SeenError worst = scene::worst_of(seen);
     const auto mean_box = static_cast<double>(worst.mean_box);
     return {.name = scene::name_of(shows),
@@ -36,8 +37,8 @@ Result<pack::VerifiedPack> load_level(const KnownModel& model, std::uint32_t lev
         });
 }
 
-ReadWay read_relief(relief::BlockRelief relief) {
-    ReadWay read;
+ReadQualityLevel read_relief(relief::BlockRelief relief) {
+    ReadQualityLevel read;
     read.bytes = relief::bytes_of(relief);
     read.data.relief = std::make_shared<const relief::BlockRelief>(std::move(relief));
     return read;
@@ -52,28 +53,30 @@ Result<KnownModel> know_model(const std::filesystem::path& file) {
         return Result<std::vector<std::uint32_t>>();
     })));
     TRY(scene::SeenByEyes seen, scene::seen_by_eyes(outline));
-    KnownModel model{.file = file, .box_size = outline.description.box_size, .reliefs = {}, .ways = {}};
+    KnownModel model{
+        .file = file, .box_size = outline.description.box_size, .reliefs = {}, .quality_levels = {}};
     TRY(model.reliefs, pack::reliefs_of(outline.description));
     for (std::uint32_t level = 0; level < outline.levels.size(); ++level) {
         const pack::LevelOutline& known = outline.levels[level];
         constexpr std::uint64_t per_vertex = sizeof(pack::PackVertex) + sizeof(glm::vec3);
         constexpr std::uint64_t per_triangle = 3 * sizeof(std::uint32_t) + 4 * sizeof(float);
-        model.ways.push_back(way_of({.level = level}, level, known.error, std::move(seen.levels[level]),
-                                    static_cast<double>(known.triangles),
-                                    known.vertices * per_vertex + known.triangles * per_triangle));
+        model.quality_levels.push_back(
+            known_level_of({.level = level}, level, known.error, std::move(seen.levels[level]),
+                           static_cast<double>(known.triangles),
+                           known.vertices * per_vertex + known.triangles * per_triangle));
     }
     for (std::uint32_t k = 0; k < model.reliefs.size(); ++k) {
         const pack::ReliefOutline& known = model.reliefs[k];
         constexpr std::uint64_t more_in_memory = 2; // in memory a cell's corners are stored together
-        model.ways.push_back(way_of({.level = known.texels, .relief = true}, k, known.error,
-                                    std::move(seen.reliefs[k]), static_cast<double>(known.blocks),
-                                    more_in_memory * known.bytes));
+        model.quality_levels.push_back(known_level_of(
+            {.level = known.texels, .relief = true}, k, known.error, std::move(seen.reliefs[k]),
+            static_cast<double>(known.blocks), more_in_memory * known.bytes));
     }
     return model;
 }
 
-Result<ReadWay> read_way(const KnownModel& model, std::size_t way) {
-    const KnownWay& known = model.ways[way];
+Result<ReadQualityLevel> read_quality_level(const KnownModel& model, std::size_t quality_level) {
+    const KnownQualityLevel& known = model.quality_levels[quality_level];
     if (known.relief) {
         TRY(relief::BlockRelief relief, pack::load_relief(model.file, model.reliefs[known.number]));
         return read_relief(std::move(relief));
@@ -81,19 +84,19 @@ Result<ReadWay> read_way(const KnownModel& model, std::size_t way) {
     TRY(const pack::VerifiedPack pack, load_level(model, known.number));
     const scene::SceneLevel whole = scene::whole_level(*pack, known.number);
     const image::Image8& texture = pack->textures[whole.mesh.texture];
-    ReadWay read{.data = scene::level_data(whole, texture),
-                 .triangles = std::make_shared<const scene::LevelTriangles>(
-                     scene::triangles_of(whole.mesh, pack->box_size))};
+    ReadQualityLevel read{.data = scene::level_data(whole, texture),
+                          .triangles = std::make_shared<const scene::LevelTriangles>(
+                              scene::triangles_of(whole.mesh, pack->box_size))};
     read.bytes = scene::bytes_of(*read.triangles) + scene::gpu_bytes(whole, texture);
     return read;
 }
 
 Result<std::optional<scene::BoxCorners>> read_solid(const KnownModel& model) {
     std::optional<std::uint32_t> finest;
-    for (const KnownWay& way : model.ways) {
-        finest = way.relief ? finest : way.number;
+    for (const KnownQualityLevel& each : model.quality_levels) {
+        finest = each.relief ? finest : each.number;
     }
-    if (!finest || model.ways[*finest].work > static_cast<double>(max_solid_triangles)) {
+    if (!finest || model.quality_levels[*finest].work > static_cast<double>(max_solid_triangles)) {
         return std::optional<scene::BoxCorners>();
     }
     TRY(const pack::VerifiedPack pack, load_level(model, *finest));

@@ -1,4 +1,4 @@
-/// A pack of the room behind the screen as its manifest describes it, and how one of its ways to be drawn is read.
+/// A pack of the room behind the screen as its manifest describes it, and how one of its quality levels is read.
 ///
 /// Units    box (pack.h), as LevelError; bytes of main and GPU memory together.
 /// Threads  pure, apart from reading files; any.
@@ -22,8 +22,8 @@
 
 namespace frustumscreen::residency {
 
-/// A mesh level, or a relief that is rasterized on the processor.
-struct KnownWay {
+/// A quality level of the pack: a mesh level, or a relief that is rasterized on the processor.
+struct KnownQualityLevel {
     std::string name;         ///< "level0", "relief96"
     std::uint32_t number = 0; ///< of the level, or of the relief among the reliefs
     bool relief = false;
@@ -39,18 +39,18 @@ struct KnownModel {
     std::filesystem::path file;
     glm::dvec3 box_size{1.0};
     std::vector<pack::ReliefOutline> reliefs;
-    std::vector<KnownWay> ways; ///< levels, finest last, then reliefs, finest last
+    std::vector<KnownQualityLevel> quality_levels; ///< levels, finest last, then reliefs, finest last
 };
 /// Reads the manifest alone.
 [[nodiscard]] Result<KnownModel> know_model(const std::filesystem::path& file);
 
-/// A way as read, ready to be uploaded.
-struct ReadWay {
+/// A quality level as read, ready to be uploaded.
+struct ReadQualityLevel {
     scene::LevelData data;
     std::shared_ptr<const scene::LevelTriangles> triangles; ///< of a level
     std::uint64_t bytes = 0;
 };
-[[nodiscard]] Result<ReadWay> read_way(const KnownModel& model, std::size_t way);
+[[nodiscard]] Result<ReadQualityLevel> read_quality_level(const KnownModel& model, std::size_t quality_level);
 /// The box inside the model's solid (inner_box.h), of its finest level; nothing if it is not closed, has cut-out texels or more
 /// than `max_solid_triangles`. In box units.
 inline constexpr std::uint64_t max_solid_triangles = 500'000;

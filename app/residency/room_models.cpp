@@ -8,7 +8,7 @@ namespace frustumscreen::residency {
 
 namespace {
 
-/// A way of drawing is unloaded for another one only if that is clearly more urgent, so that two of them do not
+/// A quality level is unloaded for another one only if that is clearly more urgent, so that two of them do not
 /// replace each other in turn.
 constexpr double clearly = 1.25;
 
@@ -18,10 +18,10 @@ RoomModels::RoomModels(std::vector<std::optional<KnownModel>> models, const Opti
                        render::GpuStore& store)
     : options_(options), store_(store) {
     for (std::optional<KnownModel>& known : models) {
-        first_.push_back(first_.empty() ? 0 : first_.back() + entries_.back().ways.size() + 1);
+        first_.push_back(first_.empty() ? 0 : first_.back() + entries_.back().slots.size() + 1);
         Entry& entry = entries_.emplace_back();
         entry.is_missing = !known;
-        entry.ways.resize(known ? known->ways.size() : 0);
+        entry.slots.resize(known ? known->quality_levels.size() : 0);
         entry.known = std::move(known);
     }
     loaded_.reserve(64);
@@ -32,7 +32,7 @@ RoomModels::RoomModels(std::vector<std::optional<KnownModel>> models, const Opti
 }
 
 std::size_t RoomModels::number_of(const Place& place) const {
-    return first_[place.model] + place.way;
+    return first_[place.model] + place.quality_level;
 }
 
 RoomModels::Place RoomModels::place_of(std::size_t number) const {
@@ -41,23 +41,25 @@ RoomModels::Place RoomModels::place_of(std::size_t number) const {
     return {model, number - first_[model]};
 }
 
-const scene::PlacedLevel* RoomModels::find(std::size_t model, std::size_t way) const {
+const scene::PlacedLevel* RoomModels::find(std::size_t model, std::size_t quality_level) const {
     const Entry& entry = entries_[model];
-    return way < entry.ways.size() && entry.ways[way].is_there ? &entry.ways[way].placed : nullptr;
+    return quality_level < entry.slots.size() && entry.slots[quality_level].is_there
+               ? &entry.slots[quality_level].placed
+               : nullptr;
 }
 
 void RoomModels::begin_frame() {
     for (Entry& entry : entries_) {
         entry.solid_urgency = 0.0;
-        for (Way& way : entry.ways) {
-            way.urgency = 0.0;
-            way.is_shown = false;
+        for (Slot& slot : entry.slots) {
+            slot.urgency = 0.0;
+            slot.is_shown = false;
         }
     }
 }
 
-void RoomModels::want(std::size_t model, std::size_t way, double urgency) {
-    double& present = entries_[model].ways[way].urgency;
+void RoomModels::want(std::size_t model, std::size_t quality_level, double urgency) {
+    double& present = entries_[model].slots[quality_level].urgency;
     present = std::max(present, urgency);
 }
 
@@ -66,17 +68,17 @@ void RoomModels::want_solid(std::size_t model, double urgency) {
     present = std::max(present, urgency);
 }
 
-void RoomModels::keep(std::size_t model, std::size_t way) {
-    entries_[model].ways[way].is_shown = true;
+void RoomModels::keep(std::size_t model, std::size_t quality_level) {
+    entries_[model].slots[quality_level].is_shown = true;
 }
 
 Result<RoomModels::Item> RoomModels::read(const Place& place) const {
     const KnownModel& known = *entries_[place.model].known;
-    if (place.way == known.ways.size()) {
+    if (place.quality_level == known.quality_levels.size()) {
         TRY(std::optional<scene::BoxCorners> solid, read_solid(known));
         return Item(solid);
     }
-    TRY(ReadWay read, read_way(known, place.way));
+    TRY(ReadQualityLevel read, read_quality_level(known, place.quality_level));
     return Item(std::move(read));
 }
 
@@ -88,26 +90,26 @@ std::optional<RoomModels::Place> RoomModels::next_to_read() const {
         if (entry.is_missing) {
             continue;
         }
-        for (std::size_t way = 0; way < entry.ways.size(); ++way) {
-            if (!entry.ways[way].is_there && entry.ways[way].urgency > most) {
-                most = entry.ways[way].urgency;
-                found = {model, way};
+        for (std::size_t quality_level = 0; quality_level < entry.slots.size(); ++quality_level) {
+            if (!entry.slots[quality_level].is_there && entry.slots[quality_level].urgency > most) {
+                most = entry.slots[quality_level].urgency;
+                found = {model, quality_level};
             }
         }
         if (!entry.is_solid_known && entry.solid_urgency > most) {
             most = entry.solid_urgency;
-            found = {model, entry.ways.size()};
+            found = {model, entry.slots.size()};
         }
     }
     return found;
 }
 
 void RoomModels::unload(const Place& place) {
-    Way& way = entries_[place.model].ways[place.way];
-    store_.release(way.placed.drawable);
-    way.placed = {};
-    way.is_there = false;
-    bytes_ -= entries_[place.model].known->ways[place.way].bytes;
+    Slot& slot = entries_[place.model].slots[place.quality_level];
+    store_.release(slot.placed.drawable);
+    slot.placed = {};
+    slot.is_there = false;
+    bytes_ -= entries_[place.model].known->quality_levels[place.quality_level].bytes;
 }
 
 bool RoomModels::make_space(std::uint64_t bytes, double urgency) {
@@ -115,11 +117,12 @@ bool RoomModels::make_space(std::uint64_t bytes, double urgency) {
         std::optional<Place> found;
         double urgency_there = urgency / clearly;
         for (std::size_t model = 0; model < entries_.size(); ++model) {
-            for (std::size_t way = 0; way < entries_[model].ways.size(); ++way) {
-                const Way& there = entries_[model].ways[way];
+            for (std::size_t quality_level = 0; quality_level < entries_[model].slots.size();
+                 ++quality_level) {
+                const Slot& there = entries_[model].slots[quality_level];
                 if (there.is_there && !there.is_shown && there.urgency < urgency_there) {
                     urgency_there = there.urgency;
-                    found = {model, way};
+                    found = {model, quality_level};
                 }
             }
         }
@@ -127,10 +130,10 @@ bool RoomModels::make_space(std::uint64_t bytes, double urgency) {
     };
     std::uint64_t others = 0; // that may be unloaded
     for (const Entry& entry : entries_) {
-        for (std::size_t way = 0; way < entry.ways.size(); ++way) {
-            const bool may = entry.ways[way].is_there && !entry.ways[way].is_shown &&
-                             entry.ways[way].urgency < urgency / clearly;
-            others += may ? entry.known->ways[way].bytes : 0;
+        for (std::size_t quality_level = 0; quality_level < entry.slots.size(); ++quality_level) {
+            const bool may = entry.slots[quality_level].is_there && !entry.slots[quality_level].is_shown &&
+                             entry.slots[quality_level].urgency < urgency / clearly;
+            others += may ? entry.known->quality_levels[quality_level].bytes : 0;
         }
     }
     if (bytes_ - others + bytes > options_.max_bytes) {
@@ -150,9 +153,9 @@ void RoomModels::give_up(const Place& place, const Error& error) {
 /// Replaces the expected bytes by the actual ones.
 void RoomModels::receive(const Place& place, Result<Item> item) {
     Entry& entry = entries_[place.model];
-    const bool is_solid = place.way == entry.ways.size();
+    const bool is_solid = place.quality_level == entry.slots.size();
     if (!is_solid) {
-        bytes_ -= entry.known->ways[place.way].bytes;
+        bytes_ -= entry.known->quality_levels[place.quality_level].bytes;
     }
     if (!item) {
         give_up(place, item.error());
@@ -163,9 +166,9 @@ void RoomModels::receive(const Place& place, Result<Item> item) {
         entry.is_solid_known = true;
         return;
     }
-    ReadWay read = std::get<ReadWay>(std::move(*item));
-    entry.known->ways[place.way].bytes = read.bytes;
-    if (!make_space(read.bytes, entry.ways[place.way].urgency)) {
+    ReadQualityLevel read = std::get<ReadQualityLevel>(std::move(*item));
+    entry.known->quality_levels[place.quality_level].bytes = read.bytes;
+    if (!make_space(read.bytes, entry.slots[place.quality_level].urgency)) {
         return; // larger than expected
     }
     bytes_ += read.bytes;
@@ -180,7 +183,7 @@ void RoomModels::go_on_uploading(std::uint64_t max_bytes) {
     const Place place = upload_->place;
     KnownModel& known = *entries_[place.model].known;
     if (Result<void> sent = upload_->upload.go_on(max_bytes); !sent) {
-        bytes_ -= known.ways[place.way].bytes;
+        bytes_ -= known.quality_levels[place.quality_level].bytes;
         give_up(place, sent.error());
         upload_.reset();
         return;
@@ -188,14 +191,14 @@ void RoomModels::go_on_uploading(std::uint64_t max_bytes) {
     if (!upload_->upload.done()) {
         return;
     }
-    Way& way = entries_[place.model].ways[place.way];
-    way.placed = {.triangles = upload_->triangles,
-                  .box_size = known.box_size,
-                  .metres_per_box = 1.0,
-                  .drawable = store_.keep(std::move(upload_->upload))};
-    way.placed.relief = upload_->relief;
-    way.is_there = true;
-    loaded_.push_back(known.file.stem().string() + " " + known.ways[place.way].name);
+    Slot& slot = entries_[place.model].slots[place.quality_level];
+    slot.placed = {.triangles = upload_->triangles,
+                   .box_size = known.box_size,
+                   .metres_per_box = 1.0,
+                   .drawable = store_.keep(std::move(upload_->upload))};
+    slot.placed.relief = upload_->relief;
+    slot.is_there = true;
+    loaded_.push_back(known.file.stem().string() + " " + known.quality_levels[place.quality_level].name);
     upload_.reset();
 }
 
@@ -216,10 +219,10 @@ void RoomModels::go_on() {
             return;
         }
         Entry& entry = entries_[next->model];
-        if (next->way < entry.ways.size()) {
-            const std::uint64_t bytes = entry.known->ways[next->way].bytes;
-            if (!make_space(bytes, entry.ways[next->way].urgency)) {
-                entry.ways[next->way].urgency = 0.0; // not in this frame
+        if (next->quality_level < entry.slots.size()) {
+            const std::uint64_t bytes = entry.known->quality_levels[next->quality_level].bytes;
+            if (!make_space(bytes, entry.slots[next->quality_level].urgency)) {
+                entry.slots[next->quality_level].urgency = 0.0; // not in this frame
                 continue;
             }
             bytes_ += bytes;

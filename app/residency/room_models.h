@@ -1,10 +1,10 @@
-/// The packs of the room behind the screen in memory: at the start only their manifests, then each way to draw one that the
+/// The packs of the room behind the screen in memory: at the start only their manifests, then each quality level that the
 /// picture wants, within a budget of memory.
 ///
 /// Order    by urgency, as the picture says in each frame. A model that nothing wants is unloaded first, then one less urgent than
 ///          what needs its memory; never what the picture shows.
-/// Frame    some megabytes are uploaded, one way at a time; nothing is read. Without a thread of its own (offline) everything
-///          that is wanted and fits is read and uploaded at once.
+/// Frame    some megabytes are uploaded, one quality level at a time; nothing is read. Without a thread of its own (offline)
+///          everything that is wanted and fits is read and uploaded at once.
 ///
 /// Units    bytes of main and GPU memory.
 /// Threads  the render thread, with the display's context current, including destruction; one thread of its own reads packs.
@@ -34,7 +34,6 @@ struct RoomModelsOptions {
 class RoomModels {
 public:
     using Options = RoomModelsOptions;
-    static constexpr std::size_t no_way = ~std::size_t{0};
 
     /// `models`: nothing for a pack that could not be opened. `store` must outlive this.
     RoomModels(std::vector<std::optional<KnownModel>> models, const Options& options,
@@ -46,8 +45,8 @@ public:
     [[nodiscard]] const KnownModel* find(std::size_t model) const {
         return entries_[model].is_missing ? nullptr : &*entries_[model].known;
     }
-    /// Null unless the way is in memory.
-    [[nodiscard]] const scene::PlacedLevel* find(std::size_t model, std::size_t way) const;
+    /// Null unless the quality level is in memory.
+    [[nodiscard]] const scene::PlacedLevel* find(std::size_t model, std::size_t quality_level) const;
     /// The box inside the model's solid; nothing if there is none, or if it is not known yet.
     [[nodiscard]] const std::optional<scene::BoxCorners>& solid(std::size_t model) const {
         return entries_[model].solid;
@@ -56,10 +55,10 @@ public:
     /// Call before the `want` calls of a frame.
     void begin_frame();
     /// `urgency`: larger is more urgent, above 0.
-    void want(std::size_t model, std::size_t way, double urgency);
+    void want(std::size_t model, std::size_t quality_level, double urgency);
     void want_solid(std::size_t model, double urgency);
     /// Call for what the picture shows: it stays in memory.
-    void keep(std::size_t model, std::size_t way);
+    void keep(std::size_t model, std::size_t quality_level);
     /// Call after these: reads, uploads and unloads.
     void go_on();
 
@@ -71,8 +70,9 @@ public:
     [[nodiscard]] std::span<const std::string> faults() const { return faults_; }
 
 private:
-    using Item = std::variant<ReadWay, std::optional<scene::BoxCorners>>;
-    struct Way {
+    using Item = std::variant<ReadQualityLevel, std::optional<scene::BoxCorners>>;
+    /// The memory of a quality level.
+    struct Slot {
         scene::PlacedLevel placed;
         bool is_there = false;
         bool is_shown = false;
@@ -81,14 +81,14 @@ private:
     struct Entry {
         std::optional<KnownModel> known;
         bool is_missing = false;
-        std::vector<Way> ways;
+        std::vector<Slot> slots; ///< by quality level
         std::optional<scene::BoxCorners> solid;
         bool is_solid_known = false;
         double solid_urgency = 0.0;
     };
-    /// A way of a model; if `way` equals the number of its ways, the model's solid.
+    /// A quality level of a model; if `quality_level` equals their number, the model's solid.
     struct Place {
-        std::size_t model = 0, way = 0;
+        std::size_t model = 0, quality_level = 0;
         [[nodiscard]] bool operator==(const Place&) const = default;
     };
     struct Upload {
@@ -99,7 +99,7 @@ private:
     };
     [[nodiscard]] Result<Item> read(const Place& place) const;
     [[nodiscard]] std::optional<Place> next_to_read() const;
-    /// Unloads less urgent ways until the bytes fit; false if they cannot.
+    /// Unloads less urgent quality levels until the bytes fit; false if they cannot.
     [[nodiscard]] bool make_space(std::uint64_t bytes, double urgency);
     void unload(const Place& place);
     void receive(const Place& place, Result<Item> item);

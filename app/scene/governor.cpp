@@ -146,13 +146,13 @@ std::optional<std::size_t> Governor::doubted() const {
 }
 
 void Governor::change_to(std::size_t quality_level, MonotonicTime now) {
-    const bool relief = !fits(current_);
-    if (relief && entered_for_quality_) {
+    const bool too_slow = !fits(current_);
+    if (too_slow && entered_for_quality_) {
         // Exponential backoff: a level that was entered for quality and proved too slow.
         const bool lasted = now - changed_ >= 4 * backoff_;
         backoff_ = lasted ? min_backoff : std::min(2 * backoff_, max_backoff);
     }
-    entered_for_quality_ = !relief;
+    entered_for_quality_ = !too_slow;
     current_ = quality_level;
     changed_ = now;
     wanted_ = Change::None;
@@ -160,7 +160,7 @@ void Governor::change_to(std::size_t quality_level, MonotonicTime now) {
 }
 
 Nanoseconds Governor::delay_of(Change change) const {
-    return change == Change::Relief ? relief_delay : (change == Change::Try ? try_backoff_ : backoff_);
+    return change == Change::Leave ? leave_delay : (change == Change::Try ? try_backoff_ : backoff_);
 }
 
 void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
@@ -175,7 +175,7 @@ void Governor::observe(MonotonicTime now, const FrameWork& work, double ms) {
         tried_at_ms_ = 0.0;
     }
     std::size_t better = wanted();
-    Change wanted = better == current_ ? Change::None : (fits(current_) ? Change::Quality : Change::Relief);
+    Change wanted = better == current_ ? Change::None : (fits(current_) ? Change::Quality : Change::Leave);
     if (wanted == Change::None && !fits(current_)) {
         if (const std::optional<std::size_t> quality_level = doubted()) {
             better = *quality_level;

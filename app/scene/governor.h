@@ -94,7 +94,7 @@ public:
     static constexpr Nanoseconds dwell = std::chrono::seconds(1);
     /// A level is left when it was too slow for this long: by then the effect of a single slow frame has
     /// decayed, and a lasting change is fully known.
-    static constexpr Nanoseconds relief_delay = std::chrono::milliseconds(250);
+    static constexpr Nanoseconds leave_delay = std::chrono::milliseconds(250);
     static constexpr Nanoseconds min_backoff = std::chrono::seconds(2);
     static constexpr Nanoseconds max_backoff = std::chrono::seconds(512);
 
@@ -118,7 +118,7 @@ public:
     [[nodiscard]] std::uint64_t ignored() const { return ignored_; } ///< values that are not times
 
 private:
-    enum class Change { None, Relief, Quality, Try };
+    enum class Change { None, Leave, Quality, Try };
     [[nodiscard]] Nanoseconds delay_of(Change change) const;
     [[nodiscard]] std::size_t wanted() const;
     [[nodiscard]] bool fits(std::size_t quality_level) const;

@@ -171,7 +171,7 @@ void DeviceIntake::tell(const tracking::TrackedState& shown, RunStatus& status) 
     status.prop_by = shown.by_tags ? "tags" : inputs_.tracker ? "tracker" : "";
     status.eye_by = shown.head_known ? "sensor" : shown.head_seen ? "camera" : "settings";
     status.eye_sd_m = status.eye_by == "camera" ? std::optional(shown.eye_sd_m) : std::nullopt;
-    status.hand_overs = tracked_state_.hand_overs();
+    status.source_changes = tracked_state_.source_changes();
     status.devices.tracker = report_of(inputs_.tracker);
     status.devices.panel = report_of(inputs_.panel);
     status.devices.sound = report_of(inputs_.sound);

@@ -42,12 +42,12 @@ Result<scene::FrameCost> measure_room_cost(const residency::KnownModel& model,
                                .eyes_m = eye};
     std::vector<scene::QualityLevelTime> times;
     std::array<int, 2> measured{}; // levels, reliefs
-    for (std::size_t way = 0; way < model.ways.size(); ++way) {
-        const residency::KnownWay& known = model.ways[way];
+    for (std::size_t quality_level = 0; quality_level < model.quality_levels.size(); ++quality_level) {
+        const residency::KnownQualityLevel& known = model.quality_levels[quality_level];
         if (measured[known.relief ? 1 : 0]++ >= 2) {
             continue;
         }
-        TRY(residency::ReadWay read, residency::read_way(model, way));
+        TRY(residency::ReadQualityLevel read, residency::read_quality_level(model, quality_level));
         const std::shared_ptr<const relief::BlockRelief> relief = read.data.relief;
         render::LevelUpload upload(std::move(read.data));
         TRY_VOID(upload.go_on());

@@ -2,7 +2,7 @@
 ///
 /// Units    milliseconds of wall time, of a whole picture at two samples a pixel.
 /// Threads  the render thread, with the display's context current.
-/// Errors   as read_way; a driver without memory.
+/// Errors   as read_quality_level; a driver without memory.
 #pragma once
 
 #include "app/render/renderer.h"

@@ -16,16 +16,17 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double us_per_part = 4.0;
-/// Priorities of loading: the first way of each object precedes a better way of another object.
+/// Priorities of loading: the first quality level of each object precedes a better one of another object.
 constexpr double first_urgency = 1e6, solid_urgency = 1e3, unseen_urgency = 0.1;
 
 } // namespace
 
-bool RoomShow::allows(const residency::KnownModel& model, const residency::KnownWay& way) const {
+bool RoomShow::allows(const residency::KnownModel& model,
+                      const residency::KnownQualityLevel& quality_level) const {
     const bool wanted = rasterizes_.value_or(true);
-    return way.relief == wanted ||
-           std::none_of(model.ways.begin(), model.ways.end(),
-                        [&](const residency::KnownWay& each) { return each.relief == wanted; });
+    return quality_level.relief == wanted ||
+           std::none_of(model.quality_levels.begin(), model.quality_levels.end(),
+                        [&](const residency::KnownQualityLevel& each) { return each.relief == wanted; });
 }
 
 double RoomShow::pixels_of(std::uint32_t object) const {
@@ -35,15 +36,15 @@ double RoomShow::pixels_of(std::uint32_t object) const {
     return std::min(placed.silhouette_m2 * px_per_m * px_per_m, all);
 }
 
-double RoomShow::error_px(const residency::KnownWay& way, std::uint32_t object) const {
+double RoomShow::error_px(const residency::KnownQualityLevel& quality_level, std::uint32_t object) const {
     const PlacedObject& placed = view_.objects()[object];
-    return way.judged_box * placed.size_m / (placed.away_m * px_rad_);
+    return quality_level.judged_box * placed.size_m / (placed.away_m * px_rad_);
 }
 
-double RoomShow::cost_us(const residency::KnownWay& way, std::uint32_t object) const {
-    const scene::QualityLevelCost& cost = way.relief ? cost_.raster : cost_.mesh;
+double RoomShow::cost_us(const residency::KnownQualityLevel& quality_level, std::uint32_t object) const {
+    const scene::QualityLevelCost& cost = quality_level.relief ? cost_.raster : cost_.mesh;
     const auto eyes = static_cast<double>(plans_.size());
-    const scene::FrameWork work{.triangles = eyes * way.work, .pixels = eyes * pixels_of(object)};
+    const scene::FrameWork work{.triangles = eyes * quality_level.work, .pixels = eyes * pixels_of(object)};
     return 1e3 * (cost.ms(work, options_.samples) - cost.fixed_ms) + us_per_part;
 }
 
@@ -51,15 +52,16 @@ std::uint32_t RoomShow::quickest_enough(std::uint32_t object) const {
     const residency::KnownModel& model = *models_->find(room_.objects[object].pack);
     std::uint32_t finest = none;
     std::uint32_t enough = none;
-    for (std::uint32_t way = 0; way < model.ways.size(); ++way) {
-        const residency::KnownWay& known = model.ways[way];
+    for (std::uint32_t quality_level = 0; quality_level < model.quality_levels.size(); ++quality_level) {
+        const residency::KnownQualityLevel& known = model.quality_levels[quality_level];
         if (!allows(model, known)) {
             continue;
         }
-        finest = finest == none || known.judged_box < model.ways[finest].judged_box ? way : finest;
+        finest = finest == none || known.judged_box < model.quality_levels[finest].judged_box ? quality_level
+                                                                                              : finest;
         if (error_px(known, object) <= tolerance_px_ &&
-            (enough == none || known.work < model.ways[enough].work)) {
-            enough = way;
+            (enough == none || known.work < model.quality_levels[enough].work)) {
+            enough = quality_level;
         }
     }
     return enough != none ? enough : finest;
@@ -75,8 +77,8 @@ void RoomShow::look(double seconds, std::span<const glm::dvec3> eyes_m) {
         [this](std::uint32_t object) -> const std::optional<scene::BoxCorners>* {
             const std::size_t pack = room_.objects[object].pack;
             // An object that is missing, or is fading in, hides nothing.
-            return models_->find(pack) != nullptr && shown_[object].way != none &&
-                           models_->find(pack, shown_[object].way) != nullptr
+            return models_->find(pack) != nullptr && shown_[object].quality_level != none &&
+                           models_->find(pack, shown_[object].quality_level) != nullptr
                        ? &models_->solid(pack)
                        : nullptr;
         },
@@ -88,7 +90,7 @@ void RoomShow::look(double seconds, std::span<const glm::dvec3> eyes_m) {
     counts_.seen = view_.seen().size();
 }
 
-/// Compares the times of the ways that are good enough, loaded or not.
+/// Compares the times of the quality levels that are good enough, loaded or not.
 void RoomShow::choose_kind() {
     if (rasterizes_ || view_.seen().empty()) {
         return;
@@ -98,8 +100,8 @@ void RoomShow::choose_kind() {
         double sum = rasterizes ? cost_.raster.fixed_ms : cost_.mesh.fixed_ms;
         for (const std::uint32_t object : view_.seen()) {
             const residency::KnownModel* const model = models_->find(room_.objects[object].pack);
-            const std::uint32_t way = model != nullptr ? quickest_enough(object) : none;
-            sum += way != none ? 1e-3 * cost_us(model->ways[way], object) : 0.0;
+            const std::uint32_t quality_level = model != nullptr ? quickest_enough(object) : none;
+            sum += quality_level != none ? 1e-3 * cost_us(model->quality_levels[quality_level], object) : 0.0;
         }
         return sum;
     };
@@ -118,10 +120,11 @@ void RoomShow::load() {
         const PlacedObject& placed = view_.objects()[object];
         const double nearness = (placed.is_seen ? 1.0 : unseen_urgency) / placed.away_m;
         std::uint32_t first = none;
-        for (std::uint32_t way = 0; way < model->ways.size(); ++way) {
-            if (allows(*model, model->ways[way]) &&
-                (first == none || model->ways[way].work < model->ways[first].work)) {
-                first = way;
+        for (std::uint32_t quality_level = 0; quality_level < model->quality_levels.size(); ++quality_level) {
+            if (allows(*model, model->quality_levels[quality_level]) &&
+                (first == none ||
+                 model->quality_levels[quality_level].work < model->quality_levels[first].work)) {
+                first = quality_level;
             }
         }
         if (first == none) {
@@ -132,9 +135,9 @@ void RoomShow::load() {
         if (placed.is_seen) {
             models_->want(pack, quickest_enough(object), nearness);
             const Shown& shown = shown_[object];
-            for (const std::uint32_t way : {shown.way, shown.coming}) {
-                if (way != none && shown.was_seen) {
-                    models_->keep(pack, way);
+            for (const std::uint32_t quality_level : {shown.quality_level, shown.coming}) {
+                if (quality_level != none && shown.was_seen) {
+                    models_->keep(pack, quality_level);
                 }
             }
         }
@@ -156,12 +159,13 @@ void RoomShow::choose(double seconds) {
         }
         seen_.push_back({.object = object,
                          .first = static_cast<std::uint32_t>(options_of_seen_.size()),
-                         .count = static_cast<std::uint32_t>(model->ways.size()),
+                         .count = static_cast<std::uint32_t>(model->quality_levels.size()),
                          .pixels = pixels_of(object)});
-        for (std::size_t way = 0; way < model->ways.size(); ++way) {
-            const bool can = allows(*model, model->ways[way]) && models_->find(pack, way) != nullptr;
-            options_of_seen_.push_back(
-                {error_px(model->ways[way], object), can ? cost_us(model->ways[way], object) : never});
+        for (std::size_t quality_level = 0; quality_level < model->quality_levels.size(); ++quality_level) {
+            const bool can = allows(*model, model->quality_levels[quality_level]) &&
+                             models_->find(pack, quality_level) != nullptr;
+            options_of_seen_.push_back({error_px(model->quality_levels[quality_level], object),
+                                        can ? cost_us(model->quality_levels[quality_level], object) : never});
         }
     }
     const double fixed_ms = rasterizes_.value_or(true) ? cost_.raster.fixed_ms : cost_.mesh.fixed_ms;
@@ -177,34 +181,35 @@ void RoomShow::change(std::uint32_t object, double seconds) {
     Shown& shown = shown_[object];
     const std::size_t pack = room_.objects[object].pack;
     const std::uint32_t chosen = choice_.of(object);
-    const auto is_there = [&](std::uint32_t way) {
-        return way != none && models_->find(pack, way) != nullptr;
+    const auto is_there = [&](std::uint32_t quality_level) {
+        return quality_level != none && models_->find(pack, quality_level) != nullptr;
     };
     const double share =
         shown.coming != none ? geometry::ramp(seconds - shown.fade_start_s, residency::level_fade_s) : 0.0;
     if (!is_there(shown.coming) || share >= 1.0) {
-        shown.way = is_there(shown.coming) ? shown.coming : shown.way;
+        shown.quality_level = is_there(shown.coming) ? shown.coming : shown.quality_level;
         shown.coming = none;
     }
-    shown.way = is_there(shown.way) ? shown.way : none;
+    shown.quality_level = is_there(shown.quality_level) ? shown.quality_level : none;
     if (!shown.was_seen) {
-        shown = {.way = chosen, .coming = none, .fade_start_s = 0.0, .was_seen = true};
+        shown = {.quality_level = chosen, .coming = none, .fade_start_s = 0.0, .was_seen = true};
         return;
     }
-    if (chosen == none || chosen == shown.way || shown.coming != none) {
+    if (chosen == none || chosen == shown.quality_level || shown.coming != none) {
         return;
     }
     if (counts_.fading < max_fades) {
         shown.coming = chosen;
         shown.fade_start_s = seconds;
-    } else if (shown.way != none && choice_.is_short()) {
-        shown.way = chosen;
+    } else if (shown.quality_level != none && choice_.is_short()) {
+        shown.quality_level = chosen;
     }
 }
 
-void RoomShow::add_part(std::uint32_t object, std::uint32_t way, const std::optional<scene::Dither>& dither) {
+void RoomShow::add_part(std::uint32_t object, std::uint32_t quality_level,
+                        const std::optional<scene::Dither>& dither) {
     scene::Part& part = parts_.emplace_back();
-    part.level = *models_->find(room_.objects[object].pack, way);
+    part.level = *models_->find(room_.objects[object].pack, quality_level);
     part.level.metres_per_box = view_.objects()[object].size_m;
     part.level.samples = options_.samples;
     part.level.prop_from_placed = view_.objects()[object].table_from_object;
@@ -232,25 +237,25 @@ void RoomShow::add_parts(double seconds) {
         counts_.fading -= faded ? 1 : 0;
         const double opacity = view_.objects()[each.object].opacity;
         if (opacity <
-            1.0) { // a taken object uses the dither for its opacity, so it does not fade between two ways
-            const std::uint32_t way = shown.coming != none ? shown.coming : shown.way;
-            if (way != none) {
-                add_part(each.object, way, scene::Dither{static_cast<float>(opacity), false});
+            1.0) { // a taken object uses the dither for its opacity, so it does not fade between two levels
+            const std::uint32_t quality_level = shown.coming != none ? shown.coming : shown.quality_level;
+            if (quality_level != none) {
+                add_part(each.object, quality_level, scene::Dither{static_cast<float>(opacity), false});
             }
         } else if (shown.coming != none) {
             const auto share =
                 static_cast<float>(geometry::ramp(seconds - shown.fade_start_s, residency::level_fade_s));
-            if (shown.way != none) {
-                add_part(each.object, shown.way, scene::Dither{share, true});
+            if (shown.quality_level != none) {
+                add_part(each.object, shown.quality_level, scene::Dither{share, true});
             }
             add_part(each.object, shown.coming, scene::Dither{share, false});
-        } else if (shown.way != none) {
-            add_part(each.object, shown.way, std::nullopt);
+        } else if (shown.quality_level != none) {
+            add_part(each.object, shown.quality_level, std::nullopt);
         }
-        const std::uint32_t way = shown.coming != none ? shown.coming : shown.way;
-        if (way != none) {
+        const std::uint32_t quality_level = shown.coming != none ? shown.coming : shown.quality_level;
+        if (quality_level != none) {
             const std::size_t pack = room_.objects[each.object].pack;
-            sum += each.pixels * 1e3 * models_->find(pack)->ways[way].mean_box *
+            sum += each.pixels * 1e3 * models_->find(pack)->quality_levels[quality_level].mean_box *
                    view_.objects()[each.object].size_m;
             weights += each.pixels;
             ++counts_.drawn;

@@ -1,13 +1,13 @@
-/// The picture of the screen behind the table: the room's objects, each drawn in the quickest way that is good enough for
-/// the eye's place.
+/// The picture of the screen behind the table: the room's objects, each drawn by the quickest quality level that is good enough
+/// for the eye's place.
 ///
 /// Culled   objects outside the eye's frustum through the screen, or hidden by solids, are neither planned nor drawn
 ///          (room_view.h).
 /// Choice   scene/room_choice.h, within the microseconds that the projector's picture leaves (set_budget). All objects are drawn
 ///          as rasterized reliefs, or all as polygons, whichever is quicker at the start: a mixed picture costs almost as much as
 ///          two. A pack that lacks that kind is drawn as the other.
-/// Fades    an object in view changes its way, or appears, by a dithered fade. Out of view it changes at once. If time is short,
-///          a quicker way is taken at once.
+/// Fades    an object in view changes its quality level, or appears, by a dithered fade. Out of view it changes at once. If time is
+///          short, a quicker one is taken at once.
 /// Loading  live, packs are read as the eye nears (residency/room_models.h), and an object that is not loaded yet is missing;
 ///          otherwise each picture waits for all that it needs. They take `room_share` of `exhibit.memory_mb`.
 ///
@@ -96,9 +96,9 @@ public:
 
 private:
     static constexpr std::uint32_t none = scene::RoomChoice::none;
-    /// The way in which an object is drawn, and the way that it fades to.
+    /// The quality level of an object, and the one that it fades to.
     struct Shown {
-        std::uint32_t way = none, coming = none;
+        std::uint32_t quality_level = none, coming = none;
         double fade_start_s = 0.0;
         bool was_seen = false; ///< in the previous picture
     };
@@ -113,10 +113,13 @@ private:
     void reserve(std::span<const std::optional<residency::KnownModel>> models);
     [[nodiscard]] Result<void> measure();
 
-    /// True if a picture of this kind (reliefs or polygons) may draw the object in this way.
-    [[nodiscard]] bool allows(const residency::KnownModel& model, const residency::KnownWay& way) const;
-    [[nodiscard]] double error_px(const residency::KnownWay& way, std::uint32_t object) const;
-    [[nodiscard]] double cost_us(const residency::KnownWay& way, std::uint32_t object) const;
+    /// True if a picture of this kind (reliefs or polygons) may draw the object by this quality level.
+    [[nodiscard]] bool allows(const residency::KnownModel& model,
+                              const residency::KnownQualityLevel& quality_level) const;
+    [[nodiscard]] double error_px(const residency::KnownQualityLevel& quality_level,
+                                  std::uint32_t object) const;
+    [[nodiscard]] double cost_us(const residency::KnownQualityLevel& quality_level,
+                                 std::uint32_t object) const;
     [[nodiscard]] double pixels_of(std::uint32_t object) const;
     [[nodiscard]] std::uint32_t quickest_enough(std::uint32_t object) const;
     void look(double seconds, std::span<const glm::dvec3> eyes_m);
@@ -125,7 +128,8 @@ private:
     void choose(double seconds);
     void change(std::uint32_t object, double seconds);
     void add_parts(double seconds);
-    void add_part(std::uint32_t object, std::uint32_t way, const std::optional<scene::Dither>& dither);
+    void add_part(std::uint32_t object, std::uint32_t quality_level,
+                  const std::optional<scene::Dither>& dither);
 
     RoomShowOptions options_;
     room::Room room_;

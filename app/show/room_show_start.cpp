@@ -43,8 +43,9 @@ std::vector<glm::dvec3> box_sizes(std::span<const std::optional<residency::Known
     return sizes;
 }
 
-std::size_t ways_of(std::span<const std::optional<residency::KnownModel>> models, std::size_t model) {
-    return models[model] ? models[model]->ways.size() : 0;
+std::size_t quality_level_count(std::span<const std::optional<residency::KnownModel>> models,
+                                std::size_t model) {
+    return models[model] ? models[model]->quality_levels.size() : 0;
 }
 
 } // namespace
@@ -81,19 +82,20 @@ RoomShow::RoomShow(const settings::Settings& settings, const RoomShowOptions& op
 }
 
 void RoomShow::reserve(std::span<const std::optional<residency::KnownModel>> models) {
-    std::size_t ways = 0;
+    std::size_t options = 0;
     for (const room::Object& object : room_.objects) {
         std::size_t most = 0;
-        for (std::size_t way = 0; way < ways_of(models, object.pack); ++way) {
-            const residency::KnownWay& known = models[object.pack]->ways[way];
+        for (std::size_t quality_level = 0; quality_level < quality_level_count(models, object.pack);
+             ++quality_level) {
+            const residency::KnownQualityLevel& known = models[object.pack]->quality_levels[quality_level];
             most = std::max(most, known.relief ? 0 : 3 * static_cast<std::size_t>(known.work));
         }
-        ways += ways_of(models, object.pack);
+        options += quality_level_count(models, object.pack);
         max_indices_ = std::min(max_indices_ + most, max_plan_indices);
     }
     const std::size_t parts = room_.objects.size() + max_fades;
     seen_.reserve(room_.objects.size());
-    options_of_seen_.reserve(ways);
+    options_of_seen_.reserve(options);
     parts_.reserve(parts);
     for (std::size_t eye = 0; eye < layout_.count; ++eye) {
         plans_.push_back(scene::make_plan(screen_.surface, max_indices_, parts));

@@ -116,7 +116,7 @@ struct TableShow::Loader {
 
 TableShow TableShow::read(const settings::Settings& settings, const Request& request) {
     TableShow show;
-    show.room_ = settings::picture_on_table(settings, 0.0);
+    show.picture_outline_m_ = settings::picture_on_table(settings, 0.0);
     show.projector_ = settings.projector.pinhole;
     show.table_from_projector_ = settings.projector.table_from_projector;
     show.text_brightness_ = settings.exhibit.caption_brightness;
@@ -180,7 +180,8 @@ void TableShow::place(const exhibit::Presentation& presentation,
         return;
     }
     const int reader = table.pictures()[*table.ring].place.picture.quarter_turns;
-    const typography::Ring ring = typography::ring_around(*shadow, table.ring_full, reader, room_);
+    const typography::Ring ring =
+        typography::ring_around(*shadow, table.ring_full, reader, picture_outline_m_);
     for (const typography::RingPiece& piece : ring.pieces()) {
         on_table.add({.corners_m = residency::flat_corners(piece.corners_m),
                       .brightness = presentation.set_share * typography::ring_brightness(table.ring_full) *

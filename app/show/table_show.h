@@ -83,7 +83,7 @@ private:
     void place_title(const exhibit::PlacedPicture& placed, const Title& title, bool within, double brightness,
                      residency::OnTable& on_table) const;
 
-    std::vector<glm::dvec2> room_; ///< the part of the table that the projector's picture covers
+    std::vector<glm::dvec2> picture_outline_m_; ///< the part of the table that the projector's picture covers
     geometry::Pinhole projector_;
     geometry::RigidTransform table_from_projector_;
     double text_brightness_ = 0.6; ///< fraction of the projector's light

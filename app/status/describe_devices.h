@@ -23,7 +23,7 @@ void tracker_fields(auto& fields, auto& counts) {
                  Metric{"tracker_samples_lost_total", "Samples lost, by their numbers."});
     fields.field("duplicated", counts.duplicated);
     fields.field("reordered", counts.reordered);
-    fields.field("strange", counts.strange);
+    fields.field("strange", counts.implausible);
     fields.field("unusable", counts.unusable);
     fields.field("broken", counts.broken, {},
                  Metric{"tracker_samples_broken_total", "How often bytes were discarded."});
@@ -140,7 +140,8 @@ void device_fields(auto& fields, auto& status) {
                                              : Metric{"drifted", "1: the picture must be calibrated again."});
     fields.field("prop_by", status.prop_by,
                  "source of the prop's pose: `tracker` or `tags`; empty: none, the prop stands");
-    fields.field("hand_overs", status.hand_overs, "how often the source changed between tracker and tags");
+    fields.field("hand_overs", status.source_changes,
+                 "how often the source changed between tracker and tags");
     fields.object_or_null(
         "torch", status.torch,
         "the torch that was taken last ([torch.md](torch.md)): `by`: `tracker` (its station 3) or "

@@ -183,7 +183,7 @@ struct DriftStatus {
 /// The poses of prop and eye, and their sources.
 struct TrackedStatus {
     std::string prop_by; ///< tracker or tags; empty: neither is there
-    std::uint64_t hand_overs = 0;
+    std::uint64_t source_changes = 0;
     bool prop_known = false;
     bool head_known = false;
     std::string eye_by{"settings"}; ///< sensor, camera or settings

@@ -27,7 +27,7 @@ TagReader::TagReader(TagSetUp set_up, std::function<double()> busy)
 std::optional<tracking::UncertainPose> TagReader::read(const camera::CameraFrame& frame) {
     lamp_.reset();
     if (!pace_.begin(frame.time)) {
-        ++counts_.passed_over;
+        ++counts_.skipped;
         return std::nullopt;
     }
     const std::optional<tracking::UncertainPose> pose = look(frame);

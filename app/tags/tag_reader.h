@@ -37,7 +37,7 @@ struct TagSetUp {
 /// Counts of frames since the start.
 struct TagCounts {
     std::uint64_t looked_at = 0;
-    std::uint64_t passed_over = 0;  ///< skipped to stay within the share
+    std::uint64_t skipped = 0;      ///< to stay within the share
     std::uint64_t posed = 0;        ///< gave a returned pose
     std::uint64_t at_half_size = 0; ///< included in `looked_at`
     std::uint64_t misshapen = 0;    ///< of another aspect ratio than in the settings

@@ -11,7 +11,7 @@ namespace {
 constexpr int max_depth = 52;
 
 /// The triangle's least distance from the origin (Ericson, Real-Time Collision Detection, 5.1.5).
-double nearest_way(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+double min_distance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto to_segment = [](const glm::dvec3& from, const glm::dvec3& to) {
         const glm::dvec3 along = to - from;
         const double square = glm::dot(along, along);
@@ -30,37 +30,38 @@ double nearest_way(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
-struct Ways {
+/// From the torch.
+struct DistanceRange {
     double min_m = 0.0, max_m = 0.0;
 };
 
-/// The largest |x.u| / r and the least, squared, of points whose ways are at least and at most these.
+/// The largest |x.u| / r and the least, squared, of points whose distances lie in this range.
 struct Angles {
     double min = 0.0, max = 1.0;
 };
-Angles angles_of(double min_along, double max_along, const Ways& ways) {
-    const double greatest = max_along / ways.min_m;
-    const double least = min_along / ways.max_m;
+Angles angles_of(double min_along, double max_along, const DistanceRange& distances) {
+    const double greatest = max_along / distances.min_m;
+    const double least = min_along / distances.max_m;
     return {std::min(1.0, least * least), std::min(1.0, greatest * greatest)};
 }
 
-/// |D| of the header, for ways beyond `full_m`.
-double max_second_derivative(const Beam& beam, const Ways& ways, const Angles& c2) {
+/// |D| of the header, for distances beyond `full_m`.
+double max_second_derivative(const Beam& beam, const DistanceRange& distances, const Angles& c2) {
     const double depth_m = beam.dark_m - beam.full_m;
     switch (beam.attenuation) {
     case Attenuation::InverseSquare: {
-        const double square = ways.min_m * ways.min_m;
+        const double square = distances.min_m * distances.min_m;
         return beam.full_m * beam.full_m *
                std::max(std::abs(8.0 * c2.min - 2.0), std::abs(8.0 * c2.max - 2.0)) / (square * square);
     }
     case Attenuation::Linear:
-        return (1.0 - c2.min) / (ways.min_m * depth_m);
+        return (1.0 - c2.min) / (distances.min_m * depth_m);
     case Attenuation::SmoothStep: {
-        const double from = (ways.min_m - beam.full_m) / depth_m;
-        const double to = (ways.max_m - beam.full_m) / depth_m;
+        const double from = (distances.min_m - beam.full_m) / depth_m;
+        const double to = (distances.max_m - beam.full_m) / depth_m;
         const auto slope = [depth_m](double t) { return 6.0 * t * (1.0 - t) / depth_m; }; // -I'
-        const double steepest = slope(std::clamp(0.5, from, to)) / ways.min_m;
-        const double flattest = std::min(slope(from), slope(to)) / ways.max_m;
+        const double steepest = slope(std::clamp(0.5, from, to)) / distances.min_m;
+        const double flattest = std::min(slope(from), slope(to)) / distances.max_m;
         const auto bend = [depth_m](double t) { return (12.0 * t - 6.0) / (depth_m * depth_m); };
         const auto between = [](double c2_at, double along, double across) {
             return std::abs(c2_at * along + (1.0 - c2_at) * across);
@@ -74,9 +75,9 @@ double max_second_derivative(const Beam& beam, const Ways& ways, const Angles& c
     return 0.0;
 }
 
-/// Ways at which the slope jumps, and by how much.
+/// Distances from the torch at which the slope jumps, and by how much.
 struct Jump {
-    double way_m = 0.0, slope = 0.0;
+    double distance_m = 0.0, slope = 0.0;
 };
 std::array<Jump, 2> jumps_of(const Beam& beam) {
     switch (beam.attenuation) {
@@ -94,9 +95,10 @@ std::array<Jump, 2> jumps_of(const Beam& beam) {
 }
 
 /// Where the attenuation is smooth and not constant; the range may be empty.
-Ways curved_ways(const Beam& beam, const Ways& ways) {
+DistanceRange curved_distances(const Beam& beam, const DistanceRange& distances) {
     const bool ends = beam.attenuation == Attenuation::Linear || beam.attenuation == Attenuation::SmoothStep;
-    return {std::max(ways.min_m, beam.full_m), ends ? std::min(ways.max_m, beam.dark_m) : ways.max_m};
+    return {std::max(distances.min_m, beam.full_m),
+            ends ? std::min(distances.max_m, beam.dark_m) : distances.max_m};
 }
 
 } // namespace
@@ -125,8 +127,9 @@ TriangleSplitter::Bound TriangleSplitter::bound_of(const MeshTriangle& triangle)
     const glm::dvec3& a = triangle[0].point_torch;
     const glm::dvec3& b = triangle[1].point_torch;
     const glm::dvec3& c = triangle[2].point_torch;
-    const Ways ways{nearest_way(a, b, c), std::max({glm::length(a), glm::length(b), glm::length(c)})};
-    const Ways curved = curved_ways(beam_, ways);
+    const DistanceRange distances{min_distance(a, b, c),
+                                  std::max({glm::length(a), glm::length(b), glm::length(c)})};
+    const DistanceRange curved = curved_distances(beam_, distances);
     const std::array<Jump, 2> jumps = jumps_of(beam_);
     Bound bound;
     double largest = 0.0;
@@ -149,8 +152,8 @@ TriangleSplitter::Bound TriangleSplitter::bound_of(const MeshTriangle& triangle)
                    max_second_derivative(beam_, curved, angles_of(min_along, max_along, curved));
         }
         for (const Jump& jump : jumps) {
-            if (jump.slope > 0.0 && ways.min_m < jump.way_m && jump.way_m < ways.max_m) {
-                part += 2.0 * jump.slope * std::min(1.0, max_along / jump.way_m) * length / 4.0;
+            if (jump.slope > 0.0 && distances.min_m < jump.distance_m && jump.distance_m < distances.max_m) {
+                part += 2.0 * jump.slope * std::min(1.0, max_along / jump.distance_m) * length / 4.0;
                 has_jump = true;
             }
         }

@@ -11,14 +11,14 @@ glm::dvec2 half_extent(const Beam& beam) {
     return {across, across * beam.height_per_width};
 }
 
-double attenuation_at(const Beam& beam, double way_m) {
-    if (way_m <= beam.full_m || beam.attenuation == Attenuation::None) {
+double attenuation_at(const Beam& beam, double distance_m) {
+    if (distance_m <= beam.full_m || beam.attenuation == Attenuation::None) {
         return 1.0;
     }
-    const double share = std::min(1.0, (way_m - beam.full_m) / (beam.dark_m - beam.full_m));
+    const double share = std::min(1.0, (distance_m - beam.full_m) / (beam.dark_m - beam.full_m));
     switch (beam.attenuation) {
     case Attenuation::InverseSquare:
-        return beam.full_m * beam.full_m / (way_m * way_m);
+        return beam.full_m * beam.full_m / (distance_m * distance_m);
     case Attenuation::Linear:
         return 1.0 - share;
     case Attenuation::SmoothStep:

@@ -23,9 +23,9 @@ namespace frustumscreen::torch {
 /// Torches at once: the one in the hand, a lamp that a camera sees, and two that were left on.
 inline constexpr std::size_t max_torches = 4;
 
-/// How intensity falls with the light's way w, its distance from the torch. Up to `full_m` all are 1.
+/// How intensity falls with the distance d from the torch. Up to `full_m` all are 1.
 enum class Attenuation : std::uint8_t {
-    InverseSquare, ///< (full_m / w)^2
+    InverseSquare, ///< (full_m / d)^2
     Linear,        ///< straight down to 0 at `dark_m`
     SmoothStep,    ///< 1 - t^2 (3 - 2 t), where t goes from 0 at `full_m` to 1 at `dark_m`
     None,          ///< 1 everywhere
@@ -53,9 +53,9 @@ struct Beam {
 
 /// The tangents of half the opening, across and down.
 [[nodiscard]] glm::dvec2 half_extent(const Beam& beam);
-/// By the way alone, also beyond the beam's reach.
-[[nodiscard]] double attenuation_at(const Beam& beam, double way_m);
-/// Way at which the intensity is `min_intensity`; infinite without attenuation.
+/// By the distance alone, also beyond the beam's reach.
+[[nodiscard]] double attenuation_at(const Beam& beam, double distance_m);
+/// Distance at which the intensity is `min_intensity`; infinite without attenuation.
 [[nodiscard]] double reach_m(const Beam& beam);
 /// Where in the content a point of the torch's frame is lit; nullopt outside the beam or beyond its reach.
 [[nodiscard]] std::optional<glm::dvec2> place_in_content(const Beam& beam, const glm::dvec3& point_torch);

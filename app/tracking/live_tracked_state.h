@@ -57,7 +57,7 @@ public:
     /// Sets the tracker's health; metal near the tracker increases the spread of its poses.
     void tracker_is(tracker::TrackerHealth health) { health_ = health; }
     /// Number of changes between tracker and tags.
-    [[nodiscard]] std::uint64_t hand_overs() const { return source_arbiter_.changes(); }
+    [[nodiscard]] std::uint64_t source_changes() const { return source_arbiter_.changes(); }
     /// The tracked state at `lit`. A lost prop stays where it was; `prop_known` becomes false after a while.
     /// The eye of a lost head glides to a seen head, otherwise to the default eye, and from there to a head
     /// that is found. `lit` must not decrease from call to call.

@@ -28,7 +28,7 @@ VisitorReader::VisitorReader(VisitorSetUp set_up, std::function<double()> busy)
 std::span<const tracking::SeenHead> VisitorReader::read(const camera::CameraFrame& frame) {
     heads_.clear();
     if (!pace_.begin(frame.time)) {
-        ++counts_.passed_over;
+        ++counts_.skipped;
         return heads_;
     }
     look(frame);

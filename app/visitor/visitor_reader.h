@@ -33,8 +33,8 @@ struct VisitorSetUp {
 /// Counts of frames since the start.
 struct VisitorCounts {
     std::uint64_t looked_at = 0;
-    std::uint64_t passed_over = 0; ///< skipped to stay within the share
-    std::uint64_t misshapen = 0;   ///< of another aspect ratio than in the settings
+    std::uint64_t skipped = 0;   ///< to stay within the share
+    std::uint64_t misshapen = 0; ///< of another aspect ratio than in the settings
 };
 
 class VisitorReader {

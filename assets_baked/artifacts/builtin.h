@@ -16,8 +16,8 @@ namespace frustumscreen::artifacts {
 /// "amphora", ...: those of the exhibit, with texts.
 [[nodiscard]] std::vector<std::string_view> builtin_names();
 
-/// One of these, or of the example hall's (hall/hall.h). About `triangles` triangles (within 5 %). Errors: unknown name, fewer than 1000 or more than 5e7
-/// triangles.
+/// One of these, or of the example hall's (hall/hall.h). About `triangles` triangles (within 5 %). Errors: unknown name,
+/// fewer than 1000 or more than 5e7 triangles.
 [[nodiscard]] Result<bake::SourceMesh> make_builtin(std::string_view name, std::int64_t triangles);
 
 /// A picture that the folder of a built-in artifact has beside the mesh: a layer for the torch.

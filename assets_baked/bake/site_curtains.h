@@ -1,7 +1,8 @@
 /// Hides what is seen only from under the ground: where a site was cut into regions, each region's underside is open.
 ///
-/// Method   from each edge of a region that the cut made, a curtain hangs down past the region's lowest place, for the search of what visitors see
-///          (visibility.h). It has none where the space right below it is open to the sky in the whole site, as below a bridge.
+/// Method   from each edge of a region that the cut made, a curtain hangs down past the region's lowest place, for the search of
+///          what visitors see (visibility.h). It has none where the space right below it is open to the sky in the whole site, as
+///          below a bridge.
 /// Frame    box of the whole site, z up.
 /// Threads  pure; any. Deterministic.
 /// Errors   none.

@@ -35,7 +35,8 @@ struct ViewingZone {
                                          const ViewingZone& zone);
 
 /// Visible sides of a region of a site. `curtains`: what hides the region's underside, and nothing else. Kept are the sides visible past
-/// `scene` and `curtains`, and the ones visible past `scene` alone that look up (+z), such as the floor inside a hill that the prop cuts open.
+/// `scene` and `curtains`, and the ones visible past `scene` alone that look up (+z), such as the floor inside a hill that the
+/// prop cuts open.
 [[nodiscard]] TriangleMesh visible_region_sides(const TriangleMesh& mesh, const SourceScene& scene,
                                                 const SourceScene& curtains, const ViewingZone& zone);
 

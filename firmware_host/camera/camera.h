@@ -36,7 +36,7 @@ struct CameraCounts {
     std::uint64_t connections = 0; ///< times that a camera was set up
     std::uint64_t frames = 0;      ///< handed on
     std::uint64_t overtaken = 0;   ///< intact, but superseded by a later frame
-    std::uint64_t passed_over = 0; ///< not decoded, to limit the CPU load
+    std::uint64_t skipped = 0;     ///< not decoded, to limit the CPU load
     std::uint64_t lost = 0;        ///< numbers missing in the kernel's count of frames
     std::uint64_t broken = 0;      ///< marked as broken by the kernel, too short, or not decodable
 };

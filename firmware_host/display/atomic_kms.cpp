@@ -75,7 +75,7 @@ KmsAnswer AtomicKms::light(std::uint32_t connector, const ModeTiming& mode, cons
     const drmModeModeInfo info = mode_info(mode);
     std::uint32_t blob = 0;
     if (!route || drmModeCreatePropertyBlob(file_, &info, sizeof info, &blob) != 0) {
-        return answer_to_a_lack(file_);
+        return answer_for_missing_object(file_);
     }
     forget_mode(); // the kernel keeps the current mode alive
     mode_blob_ = blob;

@@ -19,8 +19,8 @@ constexpr Nanoseconds longest_glance = std::chrono::milliseconds(500);
 } // namespace
 
 ConnectorWatch::ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug,
-                               std::shared_ptr<CardTurns> turns)
-    : look_(std::move(look)), hotplug_(std::move(hotplug)), turns_(std::move(turns)),
+                               std::shared_ptr<SharedCardState> shared_state)
+    : look_(std::move(look)), hotplug_(std::move(hotplug)), shared_state_(std::move(shared_state)),
       heartbeat_(monotonic_now() + longest_look), thread_([this] { run(); }) {}
 
 ConnectorWatch::~ConnectorWatch() {
@@ -41,11 +41,11 @@ void ConnectorWatch::run() {
     while (!stop_) {
         const bool thoroughly = plugged || !lit_;
         const Nanoseconds longest = thoroughly ? longest_look : longest_glance;
-        const Nanoseconds others = turns_->has_lease ? longest_look : Nanoseconds(0);
+        const Nanoseconds others = shared_state_->has_lease ? longest_look : Nanoseconds(0);
         heartbeat_.promise(monotonic_now() + longest + others);
         CardSeen seen;
         {
-            const std::lock_guard asking(turns_->asking);
+            const std::lock_guard lock(shared_state_->probe_mutex);
             seen = look_(thoroughly);
         }
         if (plugged || seen != last) {

@@ -21,8 +21,8 @@
 namespace frustumscreen::display {
 
 /// The state that two outputs of one card share.
-struct CardTurns {
-    std::mutex asking; ///< held while a connector is probed or a mode is set
+struct SharedCardState {
+    std::mutex probe_mutex; ///< held while a connector is probed or a mode is set
     std::atomic<bool> has_lease =
         false; ///< a probe for one output delays probes for the other, also in the kernel
 };
@@ -32,10 +32,10 @@ using LookAtCard = std::function<CardSeen(bool thoroughly)>;
 
 class ConnectorWatch {
 public:
-    /// `turns`: shared by the watches of one card. While the card has a lease, another watch's probe may delay this
+    /// `shared_state`: shared by the watches of one card. While the card has a lease, another watch's probe may delay this
     /// one's.
     ConnectorWatch(LookAtCard look, std::unique_ptr<Hotplug> hotplug,
-                   std::shared_ptr<CardTurns> turns = std::make_shared<CardTurns>());
+                   std::shared_ptr<SharedCardState> shared_state = std::make_shared<SharedCardState>());
     ~ConnectorWatch();
     ConnectorWatch(const ConnectorWatch&) = delete;
     ConnectorWatch& operator=(const ConnectorWatch&) = delete;
@@ -45,7 +45,7 @@ public:
     /// While the returned lock is held, no watch of this card asks it. If the lock does not own its mutex, the
     /// card is being asked now.
     [[nodiscard]] std::unique_lock<std::mutex> quiet() {
-        return std::unique_lock(turns_->asking, std::try_to_lock);
+        return std::unique_lock(shared_state_->probe_mutex, std::try_to_lock);
     }
     /// Time until which the thread has promised a sign of life.
     [[nodiscard]] MonotonicTime alive_until() const { return heartbeat_.promised_until(); }
@@ -57,7 +57,7 @@ private:
 
     LookAtCard look_;
     std::unique_ptr<Hotplug> hotplug_;
-    std::shared_ptr<CardTurns> turns_;
+    std::shared_ptr<SharedCardState> shared_state_;
     Heartbeat heartbeat_;
     std::atomic<bool> lit_{false};
     std::atomic<bool> stop_{false};

@@ -111,15 +111,15 @@ void KmsCard::set_capabilities(const OutputRequest& request) {
 }
 
 Result<KmsCard> KmsCard::lease(const OutputRequest& request, std::string_view stays) {
-    const std::lock_guard quiet(turns_->asking);
+    const std::lock_guard quiet(shared_state_->probe_mutex);
     leased_.clear();
     TRY(KmsLease lease, lease_output(*this, request.connector, stays));
     leased_ = std::move(lease.objects);
     KmsCard output(lease.file, path_);
     output.set_capabilities(request);
     output.whole_ = file_;
-    output.turns_ = turns_;
-    turns_->has_lease = true;
+    output.shared_state_ = shared_state_;
+    shared_state_->has_lease = true;
     return output;
 }
 

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] int memory_file() const { return whole_ ? whole_->get() : file(); }
     /// As take_screen, of the whole card.
     [[nodiscard]] bool become_master() const;
-    [[nodiscard]] const std::shared_ptr<CardTurns>& turns() const { return turns_; }
+    [[nodiscard]] const std::shared_ptr<SharedCardState>& shared_state() const { return shared_state_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     /// False: modes are set by the kernel's legacy calls.
     [[nodiscard]] bool is_atomic() const { return atomic_; }
@@ -67,7 +67,7 @@ public:
 private:
     friend class OtherCards;
     KmsCard(int file, std::string path)
-        : file_(std::make_shared<OwnedFile>(file)), turns_(std::make_shared<CardTurns>()),
+        : file_(std::make_shared<OwnedFile>(file)), shared_state_(std::make_shared<SharedCardState>()),
           path_(std::move(path)) {}
     /// Switches on what the kernel offers to a file that asks for it.
     void set_capabilities(const OutputRequest& request);
@@ -77,7 +77,7 @@ private:
 
     std::shared_ptr<const OwnedFile> whole_; ///< of a lease, the whole card's; null: this is the whole card
     std::shared_ptr<const OwnedFile> file_;  ///< a lease is closed before its card
-    std::shared_ptr<CardTurns> turns_;
+    std::shared_ptr<SharedCardState> shared_state_;
     std::vector<std::uint32_t> leased_; ///< objects that a lease of this card holds
     std::string path_;
     bool any_ = false; ///< any other card would do

@@ -36,10 +36,10 @@ void KmsCommit::turn_off_crtc(const KmsProperties& crtc) {
 
 KmsAnswer KmsCommit::send(std::uint32_t flags, std::uint64_t ticket) const {
     if (count_ <= 0) {
-        return answer_to_a_lack(file_);
+        return answer_for_missing_object(file_);
     }
-    return kms_answer(drmModeAtomicCommit(file_, request_.get(), flags | DRM_MODE_ATOMIC_NONBLOCK,
-                                          bits_given_back(ticket)));
+    return kms_answer(
+        drmModeAtomicCommit(file_, request_.get(), flags | DRM_MODE_ATOMIC_NONBLOCK, user_data_of(ticket)));
 }
 
 } // namespace frustumscreen::display

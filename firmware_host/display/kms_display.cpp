@@ -80,7 +80,7 @@ KmsDisplay::KmsDisplay(KmsCard card, bool any_card, std::unique_ptr<CardScreen> 
           [this](bool thoroughly) {
               return look_for_projector(card_, other_cards_ ? &*other_cards_ : nullptr, request_, thoroughly);
           },
-          make_udev_hotplug(), card_.turns()) {}
+          make_udev_hotplug(), card_.shared_state()) {}
 
 std::optional<MonotonicTime> KmsDisplay::alive_until() const {
     return std::min(watch_.alive_until(), kms_->alive_until().value_or(MonotonicTime::max()));

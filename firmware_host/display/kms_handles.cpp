@@ -38,7 +38,7 @@ KmsAnswer kms_answer(int status) {
     }
 }
 
-KmsAnswer answer_to_a_lack(int card) {
+KmsAnswer answer_for_missing_object(int card) {
     return resources_of(card) ? KmsAnswer::Refused : kms_answer(-errno);
 }
 

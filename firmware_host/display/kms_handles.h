@@ -22,7 +22,7 @@ using KmsEncoder = std::unique_ptr<drmModeEncoder, decltype(&drmModeFreeEncoder)
 }
 
 /// The ticket as user data of a flip event; it is not an address.
-[[nodiscard]] inline void* bits_given_back(std::uint64_t ticket) {
+[[nodiscard]] inline void* user_data_of(std::uint64_t ticket) {
     return reinterpret_cast<void*>(ticket); // NOLINT(performance-no-int-to-ptr)
 }
 /// The kernel's name, such as "HDMI-A-1".
@@ -31,7 +31,7 @@ using KmsEncoder = std::unique_ptr<drmModeEncoder, decltype(&drmModeFreeEncoder)
 /// The answer for the negative error number of a call; 0 = done.
 [[nodiscard]] KmsAnswer kms_answer(int status);
 /// The answer if a required object was not found: the card lacks it, or the card is gone.
-[[nodiscard]] KmsAnswer answer_to_a_lack(int card);
+[[nodiscard]] KmsAnswer answer_for_missing_object(int card);
 [[nodiscard]] ModeTiming timing_of(const drmModeModeInfo& mode);
 [[nodiscard]] drmModeModeInfo mode_info(const ModeTiming& timing);
 

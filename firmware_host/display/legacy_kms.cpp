@@ -35,7 +35,7 @@ KmsAnswer LegacyKms::light(std::uint32_t connector, const ModeTiming& mode, cons
     std::vector<KmsCrtc> crtcs = crtcs_for(file_, connector);
     std::erase_if(crtcs, [this](const KmsCrtc& crtc) { return card_.has_leased(crtc.id); });
     if (crtcs.empty()) {
-        return answer_to_a_lack(file_);
+        return answer_for_missing_object(file_);
     }
     if (!(shown.size == screen)) {
         return KmsAnswer::Refused;
@@ -65,8 +65,7 @@ KmsAnswer LegacyKms::flip(FramebufferId shown, std::uint64_t ticket) {
     if (crtc_ == 0) {
         return KmsAnswer::Refused;
     }
-    return kms_answer(
-        drmModePageFlip(file_, crtc_, shown, DRM_MODE_PAGE_FLIP_EVENT, bits_given_back(ticket)));
+    return kms_answer(drmModePageFlip(file_, crtc_, shown, DRM_MODE_PAGE_FLIP_EVENT, user_data_of(ticket)));
 }
 
 KmsAnswer LegacyKms::darken() {

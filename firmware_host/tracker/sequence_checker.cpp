@@ -34,16 +34,17 @@ SequenceChecker::Order SequenceChecker::order_of(int sensor, std::uint32_t count
             return Order::Refused;
         }
         if (step < 0 || step > far_off) {
-            const auto strange_step = static_cast<std::int32_t>(counter - sequence.strange.value_or(counter));
-            if (sequence.strange && strange_step == 0) {
+            const auto implausible_step =
+                static_cast<std::int32_t>(counter - sequence.implausible.value_or(counter));
+            if (sequence.implausible && implausible_step == 0) {
                 ++counts_.duplicated;
                 return Order::Refused;
             }
-            const bool follows = strange_step > 0 && strange_step <= far_off;
-            sequence.strange_run = follows ? sequence.strange_run + 1 : 0;
-            sequence.strange = counter;
-            if (sequence.strange_run < enough_to_believe) {
-                ++(step < 0 && step >= -far_off ? counts_.reordered : counts_.strange);
+            const bool follows = implausible_step > 0 && implausible_step <= far_off;
+            sequence.implausible_run = follows ? sequence.implausible_run + 1 : 0;
+            sequence.implausible = counter;
+            if (sequence.implausible_run < enough_to_believe) {
+                ++(step < 0 && step >= -far_off ? counts_.reordered : counts_.implausible);
                 return Order::Refused;
             }
         } else {
@@ -51,7 +52,7 @@ SequenceChecker::Order SequenceChecker::order_of(int sensor, std::uint32_t count
         }
     }
     sequence.last = counter;
-    sequence.strange.reset();
+    sequence.implausible.reset();
     return Order::Next;
 }
 

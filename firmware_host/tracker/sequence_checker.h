@@ -38,8 +38,8 @@ private:
 
     struct Sequence {
         std::optional<std::uint32_t> last;
-        std::optional<std::uint32_t> strange; ///< out of order; accepted if enough consistent ones follow
-        int strange_run = 0;
+        std::optional<std::uint32_t> implausible; ///< out of order; accepted if enough consistent ones follow
+        int implausible_run = 0;
     };
     DeviceClock clock_;
     std::array<Sequence, 129> sequences_; ///< by sensor; 7 bits, from 1

@@ -43,7 +43,7 @@ struct TrackerCounts {
     std::uint64_t lost = 0;           ///< counter values missing between two taken frames of a sensor
     std::uint64_t duplicated = 0;     ///< came twice; refused
     std::uint64_t reordered = 0;      ///< came after a later one; refused
-    std::uint64_t strange = 0;        ///< a counter far from the expected one; refused
+    std::uint64_t implausible = 0;    ///< a counter far from the expected one; refused
     std::uint64_t unusable = 0;       ///< invalid poses, or poses that the device marks as bad
     std::uint64_t broken = 0;         ///< discards of bytes, mostly for a wrong checksum
     std::uint64_t clock_restarts = 0; ///< jumps of the device's clock
@@ -56,7 +56,7 @@ struct TrackerCounts {
         lost += later.lost;
         duplicated += later.duplicated;
         reordered += later.reordered;
-        strange += later.strange;
+        implausible += later.implausible;
         unusable += later.unusable;
         broken += later.broken;
         clock_restarts += later.clock_restarts;

@@ -166,8 +166,8 @@ TEST(CutSite, RefusesWhatIsNoSiteInOneSentence) {
     EXPECT_NE(refusal(hills(120), "z", 10).find("a region holds at most 10"), std::string::npos);
 }
 
-/// Hills on a block of earth, with a floor that eyes above the ground see only where the hills are cut. `bridge`: a slab over the middle, 10 m
-/// above the hills, on no pillars.
+/// Hills on a block of earth, with a floor that eyes above the ground see only where the hills are cut. `bridge`: a slab over the
+/// middle, 10 m above the hills, on no pillars.
 SourceMesh block_of_hills(bool bridge) {
     constexpr int n = 40;
     SourceMesh mesh = test::empty_mesh();

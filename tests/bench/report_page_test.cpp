@@ -290,9 +290,9 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
                  "|---|---|---|---|---|---|\n| skull | default mesh | 1 | 0.000 | 0.000 | 0.0 |\n");
 
     TrackerResult tracker{{"Polhemus VIPER", 240.0, 5.0, {}}, 22.0, {}};
-    ContestantResult shown{"exhibit, as shown", true, {}, {}, {}, {}, {}};
+    FilterResult shown{"exhibit, as shown", true, {}, {}, {}, {}, {}};
     shown.trembles = {{0.005, {1.0, 2.0, 0.25}}};
-    tracker.contestants = {shown};
+    tracker.filters = {shown};
     put("latency/latency.csv", latency_csv({&tracker, 1}, {}));
     expect_table("trembling", "| slid at, mm/s | 2 | 5 | 15 | 50 | 150 |\n|---|---|---|---|---|---|\n"
                               "| as shown, 60 Hz | | | | | |\n"
@@ -302,7 +302,7 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
 
     const ReplayResult replayed{.tracker = "Polhemus VIPER",
                                 .recording = "vicon_handheld_1.csv",
-                                .contestant = "exhibit, as shown",
+                                .filter_name = "exhibit, as shown",
                                 .times = 2.0,
                                 .on_table = false,
                                 .slip = {1.25, 2.0, 1.5},

@@ -100,7 +100,7 @@ TEST(States, WhatStaysTheCaseComesToRest) {
 TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
     for (const StateNote& note : state_notes) {
         EXPECT_EQ(note.artifact, note.state != State::Fault && note.state != State::Staff) << note.name;
-        EXPECT_TRUE(!note.voice || note.words == Words::Advice || note.words == Words::NarrationSequencer)
+        EXPECT_TRUE(!note.voice || note.words == Words::Advice || note.words == Words::Narration)
             << note.name;
     }
     EXPECT_FALSE(note_of(State::Attract).voice); // no visitor can hear it

@@ -67,7 +67,7 @@ glm::dvec3 eye_in(const Hemisphere& hemisphere, std::size_t patch, std::mt19937&
 
 struct Difference {
     std::size_t holes = 0;     ///< empty, where `truth` is not
-    std::size_t strangers = 0; ///< surfaces that `truth` does not show within some pixels
+    std::size_t unmatched = 0; ///< surfaces that `truth` does not show within some pixels
     std::size_t compared = 0;
 };
 
@@ -84,7 +84,7 @@ Difference compare(const DepthPicture& picture, const DepthPicture& truth, int w
                     near = near || truth.colours[truth.at(u, v)] == colour;
                 }
             }
-            difference.strangers += near || colour.a == 0 ? 0 : 1;
+            difference.unmatched += near || colour.a == 0 ? 0 : 1;
             difference.holes += colour.a == 0 && truth.colours[truth.at(x, y)].a != 0 ? 1 : 0;
             ++difference.compared;
         }
@@ -217,7 +217,7 @@ TEST(LayeredDepth, FromAnyEyeTheOrderDiffersFromADepthTestAtSilhouettesAlone) {
             splat(layers, by_order);
             splat_by_depth(layers, by_depth);
             const Difference difference = compare(by_order, by_depth, 3); // a splat's size
-            EXPECT_EQ(difference.strangers, 0U) << patch << ": " << eye.x << ", " << eye.y << ", " << eye.z;
+            EXPECT_EQ(difference.unmatched, 0U) << patch << ": " << eye.x << ", " << eye.y << ", " << eye.z;
             EXPECT_EQ(difference.holes, 0U);
         }
     }
@@ -228,7 +228,7 @@ TEST(LayeredDepth, FromAnyEyeTheOrderDiffersFromADepthTestAtSilhouettesAlone) {
 template <typename Draw> void expect_like_the_world(const TriangleWorld& world, const Draw& draw_into) {
     std::mt19937 random(4);
     std::size_t holes = 0;
-    std::size_t strangers = 0;
+    std::size_t unmatched = 0;
     std::size_t compared = 0;
     for (std::size_t patch = 0; patch < patch_count; ++patch) {
         for (int k = 0; k < 6; ++k) {
@@ -237,12 +237,12 @@ template <typename Draw> void expect_like_the_world(const TriangleWorld& world, 
             draw_into(patch, picture);
             const Difference difference = compare(picture, drawn(world, eye), 2);
             holes += difference.holes;
-            strangers += difference.strangers;
+            unmatched += difference.unmatched;
             compared += difference.compared;
         }
     }
     EXPECT_LT(holes, compared / 200);
-    EXPECT_LT(strangers, compared / 200);
+    EXPECT_LT(unmatched, compared / 200);
     EXPECT_EQ(compared, std::size_t{54 * 128 * 128});
 }
 
@@ -273,7 +273,7 @@ TEST(LayeredDepth, OnABorderTheImagesOfBothPatchesShowTheSame) {
         splat(patches[a], of_a);
         splat(patches[b], of_b);
         for (const Difference& difference : {compare(of_a, of_b, 2), compare(of_b, of_a, 2)}) {
-            differ += difference.holes + difference.strangers;
+            differ += difference.holes + difference.unmatched;
             compared += difference.compared;
         }
     };

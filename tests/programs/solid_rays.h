@@ -71,7 +71,8 @@ inline std::optional<Entry> entry(const std::vector<HalfSpace>& planes, const gl
 
 using RayTriangle = std::array<glm::dvec3, 3>;
 
-/// Where the line from + t * along meets the triangle: t, also before the line's beginning; not a number: it passes (Moeller, Trumbore 1997).
+/// Where the line from + t * along meets the triangle: t, also before the line's beginning; not a number: it passes (Moeller,
+/// Trumbore 1997).
 inline double ray_meets(const RayTriangle& triangle, const glm::dvec3& from, const glm::dvec3& along) {
     const auto& [a, b, c] = triangle;
     const glm::dvec3 p = glm::cross(along, c - a);

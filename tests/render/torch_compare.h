@@ -99,9 +99,9 @@ private:
             double high = before[channel];
             for (std::size_t k = 0; k < lit.size(); ++k) {
                 if (lit[k]) {
-                    const double way = truths_[k].way(place.point);
-                    const double least = truths_[k].fallen(way + tolerance_.place_m);
-                    const double greatest = truths_[k].fallen(way - tolerance_.place_m);
+                    const double distance_m = truths_[k].distance_to(place.point);
+                    const double least = truths_[k].fallen(distance_m + tolerance_.place_m);
+                    const double greatest = truths_[k].fallen(distance_m - tolerance_.place_m);
                     low = std::fmin(shone(torches_[k], channel, low, least),
                                     shone(torches_[k], channel, low, greatest));
                     high = std::fmax(shone(torches_[k], channel, high, least),

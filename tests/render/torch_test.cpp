@@ -1,5 +1,5 @@
 // Torches that light a world of meshes and reliefs, against rays: pixels that no torch touches are the same bytes, lit ones have the
-// intensity of their way, and shadows end within a pixel of the torch's own picture.
+// intensity of their distance from it, and shadows end within a pixel of the torch's own picture.
 
 #include "tests/render/counted_new.h"
 #include "tests/render/keep_picture.h"

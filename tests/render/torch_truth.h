@@ -35,16 +35,16 @@ public:
         : world_(world), beam_(torch.beam),
           prop_from_torch_(table.table_from_prop.inverse() * torch.table_from_torch), cut_(cut) {}
 
-    /// By the way alone.
-    [[nodiscard]] double fallen(double way_m) const {
+    /// By the distance alone.
+    [[nodiscard]] double fallen(double distance_m) const {
         const double full = beam_.full_m;
-        const double left = (beam_.dark_m - way_m) / (beam_.dark_m - full); // 1 at full light
-        if (way_m < full) {
+        const double left = (beam_.dark_m - distance_m) / (beam_.dark_m - full); // 1 at full light
+        if (distance_m < full) {
             return 1.0;
         }
         switch (beam_.attenuation) {
         case torch::Attenuation::InverseSquare:
-            return std::pow(way_m / full, -2.0);
+            return std::pow(distance_m / full, -2.0);
         case torch::Attenuation::Linear:
             return std::fmax(0.0, left);
         case torch::Attenuation::SmoothStep:
@@ -54,7 +54,7 @@ public:
         }
         return 1.0;
     }
-    [[nodiscard]] double way(const glm::dvec3& point) const { return glm::distance(point, origin()); }
+    [[nodiscard]] double distance_to(const glm::dvec3& point) const { return glm::distance(point, origin()); }
 
     /// Whether the beam holds a place that is not too far, whatever is on the way.
     [[nodiscard]] bool in_beam(const glm::dvec3& point) const {
@@ -68,7 +68,7 @@ public:
                                 : std::fabs(right) < 0.5 * std::numbers::pi &&
                                       std::hypot(std::tan(right) / std::tan(half),
                                                  std::tan(down) / std::tan(half_down)) <= 1.0;
-        return inside && fallen(way(point)) >= 0.01;
+        return inside && fallen(distance_to(point)) >= 0.01;
     }
     /// In the beam, on the side that the torch is on, and nothing on the way.
     [[nodiscard]] bool lights(const SeenPart& place, const glm::dvec3& eye) const {
@@ -83,7 +83,7 @@ public:
         if (is_in_object(first, point - origin())) {
             return false;
         }
-        return first.part < 0 || way(first.point) > way(point) * (1.0 - 1e-9) - 1e-9;
+        return first.part < 0 || distance_to(first.point) > distance_to(point) * (1.0 - 1e-9) - 1e-9;
     }
 
     /// The verdict of the rays through the torch's own picture within `radius` of its pixels on a place: all meet something at least

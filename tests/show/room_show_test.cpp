@@ -355,7 +355,7 @@ TEST(RoomModels, KeepsItsBudgetAndUnloadsWhatIsLeastNeeded) {
         shown.pack(fmt::format("{}.fspack", k), ring_pack());
         models.emplace_back(residency::know_model(shown.file(fmt::format("{}.fspack", k))).value());
     }
-    const std::uint64_t one = residency::read_way(*models[0], 0).value().bytes;
+    const std::uint64_t one = residency::read_quality_level(*models[0], 0).value().bytes;
     render::GpuStore store;
     residency::RoomModels room(models, {.max_bytes = 2 * one + one / 2, .waits = true}, store);
     const auto frame = [&](const std::vector<double>& urgency,

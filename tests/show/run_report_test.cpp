@@ -113,7 +113,7 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     status.shown_code = std::uint8_t{6};
     status.tracker_counts.lost = 3;
     status.prop_by = "tags";
-    status.hand_overs = 5;
+    status.source_changes = 5;
     status.eye_by = "camera";
     status.eye_sd_m = 0.021;
     status.camera_hz = 29.97;

@@ -186,7 +186,8 @@ TEST_F(SitePages, ComeForThePlaceAndLeaveForTheNextWithinTheBudget) {
     EXPECT_EQ(cache_->bytes(), coarse_bytes_ + bytes_of_pages_there());
 }
 
-/// Bytes in the store, counted by hand: the site's two levels share a texture, and a proxy's texels lie no closer on the prop than the site's.
+/// Bytes in the store, counted by hand: the site's two levels share a texture, and a proxy's texels lie no closer on the prop than
+/// the site's.
 TEST_F(SitePages, BringOnlyProxiesWithTheArtifact) {
     constexpr std::uint64_t whole_texels = 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4;
     constexpr std::uint64_t stand_in_texels = 8 * 8 + 4 * 4; // 64 / 6 texels along a side, or fewer

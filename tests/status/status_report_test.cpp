@@ -91,7 +91,7 @@ StatusReport full_report() {
     report.drift_m = 0.003125;
     report.drifted = true;
     report.prop_by = "tags";
-    report.hand_overs = 5;
+    report.source_changes = 5;
     report.panel = Sentence("its buttons are there");
     report.sound = Sentence("its sound goes to default");
     report.sound_underruns = 2;

@@ -128,7 +128,7 @@ TEST(TagReader, TakesNoMoreThanAQuarterOfACore) {
         static_cast<void>(reader.read({MonotonicTime(milliseconds(10 * k)), 1, 0, 0, {}}));
     }
     EXPECT_EQ(reader.counts().looked_at, 10U);
-    EXPECT_EQ(reader.counts().passed_over, 70U);
+    EXPECT_EQ(reader.counts().skipped, 70U);
     EXPECT_EQ(reader.counts().at_half_size, 9U); // from the second on
 }
 

@@ -1,4 +1,4 @@
-// The beam: how intensity falls with the way, where the eye no longer sees it, and which places lie in the content.
+// The beam: how intensity falls with the distance, where the eye no longer sees it, and which places lie in the content.
 
 #include "app/geometry/pinhole.h"
 #include "app/torch/torch.h"
@@ -43,23 +43,23 @@ TEST(Beam, IntensityFallsAsEachFunctionSays) {
     EXPECT_EQ(attenuation_at(none, 1e6), 1.0);
 }
 
-TEST(Beam, IsFullUpToItsFullWayAndNeverBrightensFromThereOn) {
+TEST(Beam, IsFullUpToItsFullDistanceAndNeverBrightensFromThereOn) {
     for (const Attenuation attenuation : all) {
         const Beam beam = beam_of(attenuation);
-        for (const double way : {0.0, 1e-300, 0.1, 0.5}) {
-            EXPECT_EQ(attenuation_at(beam, way), 1.0);
+        for (const double distance_m : {0.0, 1e-300, 0.1, 0.5}) {
+            EXPECT_EQ(attenuation_at(beam, distance_m), 1.0);
         }
         double before = 1.0;
-        for (double way = 0.5; way < 20.0; way += 0.001) {
-            const double now = attenuation_at(beam, way);
-            ASSERT_LE(now, before) << way;
-            ASSERT_GE(now, 0.0) << way;
+        for (double distance_m = 0.5; distance_m < 20.0; distance_m += 0.001) {
+            const double now = attenuation_at(beam, distance_m);
+            ASSERT_LE(now, before) << distance_m;
+            ASSERT_GE(now, 0.0) << distance_m;
             before = now;
         }
     }
 }
 
-/// The way at which the intensity falls to the eye's threshold, by bisection.
+/// The distance at which the intensity falls to the eye's threshold, by bisection.
 double found_reach(const Beam& beam) {
     double bright = beam.full_m;
     double dark = 1e6;

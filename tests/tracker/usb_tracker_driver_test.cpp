@@ -21,7 +21,7 @@ TEST(UsbTrackerDriver, SetsUpAndHandsOutWhatIsSent) {
         EXPECT_NEAR(static_cast<double>(bench.samples.size()), 2 * 5 * rate, 6.0);
         EXPECT_LT(bench.device.now - bench.samples.back().time, milliseconds(18));
         EXPECT_EQ(bench.counts().lost + bench.counts().duplicated + bench.counts().reordered, 0U);
-        EXPECT_EQ(bench.counts().broken + bench.counts().unusable + bench.counts().strange, 0U);
+        EXPECT_EQ(bench.counts().broken + bench.counts().unusable + bench.counts().implausible, 0U);
         EXPECT_LT(glm::distance(bench.samples.back().rotation * glm::dvec3(1, 0, 0),
                                 glm::dquat(0.5, 0.5, -0.5, 0.5) * glm::dvec3(1, 0, 0)),
                   1e-12);

@@ -107,7 +107,7 @@ TEST(VisitorReader, TakesNoMoreThanATenthOfACore) {
         static_cast<void>(reader.read({MonotonicTime(milliseconds(10 * k)), 1, 0, 0, {}}));
     }
     EXPECT_EQ(reader.counts().looked_at, 5U);
-    EXPECT_EQ(reader.counts().passed_over, 95U);
+    EXPECT_EQ(reader.counts().skipped, 95U);
 }
 
 TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {

@@ -29,7 +29,7 @@ AdviceProof prove(const guidance::GuidanceSetup& setup, const GuidanceOptions& o
                   const std::function<void(double)>& progress) {
     AdviceProof proof;
     proof.situations = options.situations;
-    proof.mended_after.assign(max_moves, 0);
+    proof.restored_after.assign(max_moves, 0);
     Seeded seeded(options.seed);
     std::vector<double> times_ms;
     for (int k = 0; k < options.situations; ++k) {
@@ -72,7 +72,7 @@ AdviceProof prove(const guidance::GuidanceSetup& setup, const GuidanceOptions& o
         } else if (moves == 0) {
             ++proof.valid;
         } else {
-            ++proof.mended_after[moves - 1];
+            ++proof.restored_after[moves - 1];
         }
     }
     std::sort(times_ms.begin(), times_ms.end());
@@ -89,7 +89,7 @@ VisitsOf visits(const guidance::GuidanceSetup& setup, Adviser adviser, const Gui
         progress(static_cast<double>(k) / options.visitors);
         const VisitResult one =
             simulate_visit(setup, adviser, options.seed + static_cast<std::uint64_t>(k), options.seconds);
-        all.mended_s.insert(all.mended_s.end(), one.mended_s.begin(), one.mended_s.end());
+        all.restored_s.insert(all.restored_s.end(), one.restored_s.begin(), one.restored_s.end());
         all.whole_share += one.whole_share / options.visitors;
         all.advices_a_minute += 60.0 * one.advices / one.seconds / options.visitors;
         all.losses_a_minute += 60.0 * one.losses / one.seconds / options.visitors;
@@ -97,7 +97,7 @@ VisitsOf visits(const guidance::GuidanceSetup& setup, Adviser adviser, const Gui
             all.dark_share.at(what) += one.dark_s.at(what) / one.seconds / options.visitors;
         }
     }
-    std::sort(all.mended_s.begin(), all.mended_s.end());
+    std::sort(all.restored_s.begin(), all.restored_s.end());
     return all;
 }
 
@@ -108,7 +108,7 @@ double percent(double part, double whole) {
 } // namespace
 
 double VisitsOf::quantile_s(double share) const {
-    return quantile(mended_s, share);
+    return quantile(restored_s, share);
 }
 
 GuidedProp measure_guidance(const std::string& name, const guidance::GuidanceSetup& setup,
@@ -128,8 +128,8 @@ std::string guidance_table(const GuidedProp& prop) {
     const AdviceProof& proof = prop.proof;
     const auto share = [&](int count) { return percent(count, proof.situations); };
     int later = 0;
-    for (std::size_t k = 3; k < proof.mended_after.size(); ++k) {
-        later += proof.mended_after[k];
+    for (std::size_t k = 3; k < proof.restored_after.size(); ++k) {
+        later += proof.restored_after[k];
     }
     std::string text = fmt::format(
         "{}: {} situations; people follow the advice with errors of up to 20 degrees and 40 % of the amount\n"
@@ -139,8 +139,8 @@ std::string guidance_table(const GuidedProp& prop) {
         " ({} without any advice)\n"
         "  advice of one move: {} cases, {} without improvement; time to find advice: median {:.2f} ms, 99th "
         "percentile {:.2f} ms\n",
-        prop.name, proof.situations, share(proof.valid), share(proof.mended_after[0]),
-        share(proof.mended_after[1]), share(proof.mended_after[2]), share(later), share(proof.never),
+        prop.name, proof.situations, share(proof.valid), share(proof.restored_after[0]),
+        share(proof.restored_after[1]), share(proof.restored_after[2]), share(later), share(proof.never),
         proof.without_advice, proof.single, proof.failed, proof.median_ms, proof.p99_ms);
     text += fmt::format("  {:<28} {:>16} {:>16} {:>12} {:>18} {:>17}\n", "simulated visitors",
                         "whole in, median", "95th percentile", "whole", "advice a minute", "losses a minute");

@@ -23,24 +23,24 @@ struct GuidanceOptions {
 /// Results of advice for seeded situations, carried out with the inaccuracy of people.
 struct AdviceProof {
     int situations = 0;
-    int valid = 0;                 ///< valid from the start
-    std::vector<int> mended_after; ///< [k]: whole after k + 1 moves
-    int never = 0;                 ///< not mended within that many moves
-    int without_advice = 0;        ///< situations without an advice: no sequence was found
-    long single = 0;               ///< advices of a single move that were carried out
-    long failed = 0;               ///< neither whole afterwards nor a smaller unlit area
-    double median_ms = 0.0;        ///< time to find an advice
+    int valid = 0;                   ///< valid from the start
+    std::vector<int> restored_after; ///< [k]: whole after k + 1 moves
+    int never = 0;                   ///< not whole within that many moves
+    int without_advice = 0;          ///< situations without an advice: no sequence was found
+    long single = 0;                 ///< advices of a single move that were carried out
+    long failed = 0;                 ///< neither whole afterwards nor a smaller unlit area
+    double median_ms = 0.0;          ///< time to find an advice
     double p99_ms = 0.0;
 };
 
 struct VisitsOf {
     Adviser adviser = Adviser::None;
-    std::vector<double> mended_s; ///< ascending
+    std::vector<double> restored_s; ///< ascending
     double whole_share = 0.0;
     double advices_a_minute = 0.0;
     double losses_a_minute = 0.0;
     std::array<double, dark_while_count> dark_share{}; ///< shares of the time, by `DarkWhile`
-    /// Seconds within which this share of the losses is mended.
+    /// Seconds within which the picture is whole again after this share of the losses.
     [[nodiscard]] double quantile_s(double share) const;
 };
 
@@ -57,7 +57,7 @@ struct GuidedProp {
 
 [[nodiscard]] std::string guidance_table(const GuidedProp& prop);
 [[nodiscard]] std::string guidance_csv(const std::vector<GuidedProp>& props);
-/// Targets: no advice fails, 95 % of the losses are mended within 6 s, and the picture is whole for 95 % of the time.
+/// Targets: no advice fails, the picture is whole again within 6 s of 95 % of the losses, and it is whole for 95 % of the time.
 [[nodiscard]] std::vector<LimitVerdict> judge(const GuidedProp& prop);
 
 } // namespace frustumscreen::bench

@@ -54,7 +54,7 @@ public:
             move_on();
         }
         if (lost_since_s_ && now_s_ - *lost_since_s_ > debounce_s) {
-            result.mended_s.push_back(now_s_ - *lost_since_s_); // a lower bound, as the visit ends
+            result.restored_s.push_back(now_s_ - *lost_since_s_); // a lower bound, as the visit ends
         }
         result.whole_share = static_cast<double>(whole) / steps;
         return result;
@@ -109,7 +109,7 @@ private:
     void be_content(VisitResult& result) {
         if (lost_since_s_) {
             if (now_s_ - *lost_since_s_ > debounce_s) {
-                result.mended_s.push_back(now_s_ - *lost_since_s_);
+                result.restored_s.push_back(now_s_ - *lost_since_s_);
                 next_play_s_ = now_s_ + plays_.between(2.0, 5.0);
             }
             lost_since_s_.reset();

@@ -31,7 +31,7 @@ enum class DarkWhile : std::uint8_t { Playing, Waiting, Overlooking, Reacting, G
 inline constexpr std::size_t dark_while_count = 6;
 
 struct VisitResult {
-    std::vector<double> mended_s;                  ///< duration of each loss that exceeds the debounce time
+    std::vector<double> restored_s;                ///< duration of each loss that exceeds the debounce time
     double whole_share = 0.0;                      ///< share of the time
     std::array<double, dark_while_count> dark_s{}; ///< seconds without a whole picture, by `DarkWhile`
     int losses = 0;                                ///< number of times that the picture ceased to be whole

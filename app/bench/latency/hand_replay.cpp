@@ -65,7 +65,7 @@ HandMotion faster(const std::vector<RecordedPose>& poses, double times) {
     };
 }
 
-std::vector<Contestant> hand_contestants(double lever_m) {
+std::vector<ComparedFilter> compared_hand_filters(double lever_m) {
     using tracking::MotionFilter, tracking::PoseNoise;
     return {
         {"for the table",
@@ -115,18 +115,18 @@ std::vector<ReplayResult> replay(const PoseRecording& recording, const TrackedBy
         const HandMotion hand = faster(recording.poses, times);
         for (const bool on_table : {false, true}) {
             const HandMotion motion = on_table ? slid(hand, 0.0) : hand;
-            const auto add = [&](const std::string& contestant, const std::vector<LitPicture>& pictures) {
+            const auto add = [&](const std::string& filter_name, const std::vector<LitPicture>& pictures) {
                 results.push_back({.tracker = tracker.name,
                                    .recording = recording.name,
-                                   .contestant = contestant,
+                                   .filter_name = filter_name,
                                    .times = times,
                                    .on_table = on_table,
                                    .slip = slip_of(pictures, lever_m),
                                    .overshoot = overshoot_at_turns(pictures)});
             };
-            for (const Contestant& contestant : hand_contestants(lever_m)) {
-                add(contestant.name,
-                    lit_pictures(motion, length_s, tracker, options.setting, contestant, options.seed));
+            for (const ComparedFilter& compared : compared_hand_filters(lever_m)) {
+                add(compared.name,
+                    lit_pictures(motion, length_s, tracker, options.setting, compared, options.seed));
             }
             add("best weights",
                 pictures_by_best_weights(tracked_samples(motion, length_s, tracker, options.seed), motion,
@@ -146,7 +146,7 @@ std::string replay_table(std::span<const ReplayResult> results) {
                                              result.times, result.on_table ? "on the table" : "in the hand");
         text += head != before ? head : std::string();
         before = head;
-        text += fmt::format("  {:<29} {:6.2f} {:6.2f} {:6.2f}   {:6.2f} {:6.2f}\n", result.contestant,
+        text += fmt::format("  {:<29} {:6.2f} {:6.2f} {:6.2f}   {:6.2f} {:6.2f}\n", result.filter_name,
                             result.slip.mean, result.slip.p95, result.slip.rms, result.overshoot.mean,
                             result.overshoot.p95);
     }
@@ -158,7 +158,7 @@ std::string replay_csv(std::span<const ReplayResult> results) {
                        "overshoot_mean_mm,overshoot_p95_mm\n";
     for (const ReplayResult& result : results) {
         text += fmt::format("\"{}\",\"{}\",\"{}\",{:g},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n",
-                            result.tracker, result.recording, result.contestant, result.times,
+                            result.tracker, result.recording, result.filter_name, result.times,
                             result.on_table ? "table" : "hand", result.slip.mean, result.slip.p95,
                             result.slip.rms, result.overshoot.mean, result.overshoot.p95);
     }

@@ -22,7 +22,7 @@ namespace frustumscreen::bench {
 struct ReplayResult {
     std::string tracker;
     std::string recording;
-    std::string contestant;
+    std::string filter_name;
     double times = 1.0;    ///< the recording's speed
     bool on_table = false; ///< flattened
     Slip slip;

@@ -44,15 +44,15 @@ private:
 
 std::vector<LitPicture> play(std::span<const RecordedPose> samples, const HandMotion& truth, double length_s,
                              const TrackedBy& tracker, const LatencySetting& setting,
-                             const Contestant& contestant) {
+                             const ComparedFilter& compared) {
     tracking::PoseEstimatorOptions options;
-    options.predicts = contestant.predicts;
+    options.predicts = compared.predicts;
     // Allow the whole latency under test plus one sample, regardless of the exhibit's own limit.
     options.predicted_for =
         std::max(options.predicted_for,
                  Nanoseconds(std::llround(1e6 * (tracker.latency_ms + setting.display_latency_ms) +
                                           2e9 / tracker.rate_hz)));
-    tracking::PoseEstimator estimator(contestant.filter(tracker.noise), options);
+    tracking::PoseEstimator estimator(compared.filter(tracker.noise), options);
     tracking::ShownPose shown({.lever_m = setting.lever_m});
     std::vector<LitPicture> pictures;
     std::size_t next = 0;
@@ -68,7 +68,7 @@ std::vector<LitPicture> play(std::span<const RecordedPose> samples, const HandMo
         const tracking::PoseEstimate estimate = estimator.at(time_at(lit_s));
         if (estimate.reinitialisations > 0) {
             pictures.push_back({lit_s,
-                                contestant.shown ? shown.follow(estimate, time_at(lit_s)) : estimate.pose,
+                                compared.shown ? shown.follow(estimate, time_at(lit_s)) : estimate.pose,
                                 truth(lit_s)});
         }
     }
@@ -86,7 +86,7 @@ double rms(const std::vector<double>& values) {
 
 } // namespace
 
-std::vector<Contestant> contestants() {
+std::vector<ComparedFilter> compared_filters() {
     const auto none = [](const tracking::PoseNoise&) { return std::make_unique<NoFilter>(); };
     const auto one_euro = [](const tracking::PoseNoise&) { return std::make_unique<OneEuroFilter>(); };
     const auto glide = [](const tracking::PoseNoise& noise) {
@@ -119,21 +119,21 @@ std::vector<RecordedPose> tracked_samples(const HandMotion& motion, double lengt
 }
 
 std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s, const TrackedBy& tracker,
-                                     const LatencySetting& setting, const Contestant& contestant,
+                                     const LatencySetting& setting, const ComparedFilter& compared,
                                      std::uint64_t seed) {
     return play(tracked_samples(motion, length_s, tracker, seed), motion, length_s, tracker, setting,
-                contestant);
+                compared);
 }
 
 std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples, const TrackedBy& tracker,
-                                     const LatencySetting& setting, const Contestant& contestant,
+                                     const LatencySetting& setting, const ComparedFilter& compared,
                                      std::uint64_t seed) {
     Noise noise(tracker.noise, seed);
     std::vector<RecordedPose> noisy(samples.begin(), samples.end());
     for (RecordedPose& sample : noisy) {
         sample.pose = noise.on(sample.pose);
     }
-    return play(noisy, recorded(samples), samples.back().t_s, tracker, setting, contestant);
+    return play(noisy, recorded(samples), samples.back().t_s, tracker, setting, compared);
 }
 
 Slip slip_of(std::span<const LitPicture> pictures, double lever_m) {
@@ -162,8 +162,8 @@ Slip tremble_of(std::span<const LitPicture> pictures, double lever_m) {
     return {mean(steps), quantile(steps, 0.95), rms(steps)};
 }
 
-Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, const Contestant& contestant,
-                       std::uint64_t seed) {
+Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting,
+                       const ComparedFilter& compared, std::uint64_t seed) {
     std::vector<double> past;
     std::vector<double> ahead;
     for (int k = 0; k < stops; ++k) {
@@ -173,7 +173,7 @@ Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, 
         const double stand_m = motion(brake_at_s + 1.0).translation.x;
         past.push_back(0.0);
         ahead.push_back(0.0);
-        for (const LitPicture& picture : lit_pictures(motion, brake_at_s + 1.0, tracker, setting, contestant,
+        for (const LitPicture& picture : lit_pictures(motion, brake_at_s + 1.0, tracker, setting, compared,
                                                       seed + static_cast<std::uint64_t>(k))) {
             const double drawn_m = picture.drawn.translation.x;
             if (picture.lit_s >= brake_at_s) {
@@ -194,16 +194,16 @@ Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting, 
 TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& options) {
     const LatencySetting& setting = options.setting;
     TrackerResult result{tracker, tracker.latency_ms + setting.display_latency_ms, {}};
-    for (const Contestant& contestant : contestants()) {
-        ContestantResult one{.name = contestant.name,
-                             .predicts = contestant.predicts,
-                             .strokes = {},
-                             .trembles = {},
-                             .rest = {},
-                             .stop = {},
-                             .latencies = {}};
+    for (const ComparedFilter& compared : compared_filters()) {
+        FilterResult one{.name = compared.name,
+                         .predicts = compared.predicts,
+                         .strokes = {},
+                         .trembles = {},
+                         .rest = {},
+                         .stop = {},
+                         .latencies = {}};
         const auto slip = [&](const HandMotion& motion, const LatencySetting& with) {
-            return slip_of(lit_pictures(motion, options.length_s, tracker, with, contestant, options.seed),
+            return slip_of(lit_pictures(motion, options.length_s, tracker, with, compared, options.seed),
                            setting.lever_m);
         };
         for (const double speed_m_s : options.speeds_m_s) {
@@ -214,11 +214,11 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
             const HandMotion slide =
                 stop(speed_m_s, stop_braking_m_s2, options.length_s); // no braking before the end
             one.trembles.push_back({speed_m_s, tremble_of(lit_pictures(slide, options.length_s, tracker,
-                                                                       setting, contestant, options.seed),
+                                                                       setting, compared, options.seed),
                                                           setting.lever_m)});
         }
         one.rest = slip(rest(), setting);
-        one.stop = overshoot_of(tracker, setting, contestant, options.seed);
+        one.stop = overshoot_of(tracker, setting, compared, options.seed);
         const HandMotion motion = strokes(latency_speed_m_s, options.length_s, options.seed);
         for (int tens = 0; tens <= 8; ++tens) {
             const double display_ms = 10.0 * tens;
@@ -226,7 +226,7 @@ TrackerResult measure_tracker(const TrackedBy& tracker, const LatencyOptions& op
             later.display_latency_ms = display_ms;
             one.latencies.push_back({tracker.latency_ms + display_ms, slip(motion, later)});
         }
-        result.contestants.push_back(std::move(one));
+        result.filters.push_back(std::move(one));
     }
     return result;
 }
@@ -241,14 +241,14 @@ RecordingResult measure_recording(const PoseRecording& recording, const LatencyO
     if (recording.noisy) {
         tracker.noise = {0.0, 0.0};
     }
-    for (Contestant contestant : contestants()) {
+    for (ComparedFilter compared : compared_filters()) {
         // The filters expect their default noise, even if the recording has its own.
-        contestant.filter = [make = contestant.filter](const tracking::PoseNoise&) {
+        compared.filter = [make = compared.filter](const tracking::PoseNoise&) {
             return make(tracking::PoseNoise{});
         };
         result.slips.emplace_back(
-            contestant.name,
-            slip_of(lit_pictures(recording.poses, tracker, options.setting, contestant, options.seed),
+            compared.name,
+            slip_of(lit_pictures(recording.poses, tracker, options.setting, compared, options.seed),
                     options.setting.lever_m));
     }
     return result;

@@ -34,7 +34,7 @@ struct LatencySetting {
 };
 
 /// A filter to compare.
-struct Contestant {
+struct ComparedFilter {
     std::string name;
     std::function<std::unique_ptr<tracking::PoseFilter>(const tracking::PoseNoise&)> filter;
     bool predicts = true;
@@ -42,7 +42,7 @@ struct Contestant {
 };
 /// No filter; One Euro, constant velocity and the exhibit's filter, each without and with prediction; and the
 /// exhibit's filter as shown.
-[[nodiscard]] std::vector<Contestant> contestants();
+[[nodiscard]] std::vector<ComparedFilter> compared_filters();
 
 /// One picture of a run.
 struct LitPicture {
@@ -57,12 +57,12 @@ struct LitPicture {
 
 [[nodiscard]] std::vector<LitPicture> lit_pictures(const HandMotion& motion, double length_s,
                                                    const TrackedBy& tracker, const LatencySetting& setting,
-                                                   const Contestant& contestant, std::uint64_t seed);
+                                                   const ComparedFilter& compared, std::uint64_t seed);
 /// Like the overload above, for recorded samples; adds noise if `tracker.noise` is not zero. The truth is
 /// interpolated between the samples.
 [[nodiscard]] std::vector<LitPicture> lit_pictures(std::span<const RecordedPose> samples,
                                                    const TrackedBy& tracker, const LatencySetting& setting,
-                                                   const Contestant& contestant, std::uint64_t seed);
+                                                   const ComparedFilter& compared, std::uint64_t seed);
 
 inline constexpr double stop_speed_m_s = 0.5;
 inline constexpr double stop_braking_m_s2 = 5.0;
@@ -92,7 +92,7 @@ struct Overshoot {
     double ahead_rms = 0.0;
 };
 [[nodiscard]] Overshoot overshoot_of(const TrackedBy& tracker, const LatencySetting& setting,
-                                     const Contestant& contestant, std::uint64_t seed);
+                                     const ComparedFilter& compared, std::uint64_t seed);
 
 struct SpeedSlip {
     double speed_m_s = 0.0;
@@ -102,7 +102,7 @@ struct LatencySlip {
     double total_ms = 0.0; ///< tracker and display
     Slip slip;             ///< strokes at 0.25 m/s
 };
-struct ContestantResult {
+struct FilterResult {
     std::string name;
     bool predicts = false;
     std::vector<SpeedSlip> strokes;
@@ -114,7 +114,7 @@ struct ContestantResult {
 struct TrackerResult {
     TrackedBy tracker;
     double total_ms = 0.0; ///< tracker and display
-    std::vector<ContestantResult> contestants;
+    std::vector<FilterResult> filters;
 };
 
 struct LatencyOptions {
@@ -135,7 +135,7 @@ struct PoseRecording {
 struct RecordingResult {
     std::string name;
     double total_ms = 0.0;
-    std::vector<std::pair<std::string, Slip>> slips; ///< by contestant
+    std::vector<std::pair<std::string, Slip>> slips; ///< by filter
 };
 [[nodiscard]] RecordingResult measure_recording(const PoseRecording& recording,
                                                 const LatencyOptions& options);

@@ -17,24 +17,23 @@ constexpr double overshoot_margin_mm = 0.5;
 constexpr double max_tremble_mm = 0.5;
 constexpr double fastest_calm_m_s = 0.05; ///< fastest slide that must not tremble
 
-const ContestantResult& named(const TrackerResult& result, const std::string& name) {
-    const auto found =
-        std::find_if(result.contestants.begin(), result.contestants.end(),
-                     [&](const ContestantResult& contestant) { return contestant.name == name; });
-    assert(found != result.contestants.end());
+const FilterResult& named(const TrackerResult& result, const std::string& name) {
+    const auto found = std::find_if(result.filters.begin(), result.filters.end(),
+                                    [&](const FilterResult& filter) { return filter.name == name; });
+    assert(found != result.filters.end());
     return *found;
 }
 
-const Slip* at_speed(const ContestantResult& contestant, double speed_m_s) {
-    const auto found = std::find_if(contestant.strokes.begin(), contestant.strokes.end(),
+const Slip* at_speed(const FilterResult& filter, double speed_m_s) {
+    const auto found = std::find_if(filter.strokes.begin(), filter.strokes.end(),
                                     [&](const SpeedSlip& stroke) { return stroke.speed_m_s == speed_m_s; });
-    return found != contestant.strokes.end() ? &found->slip : nullptr;
+    return found != filter.strokes.end() ? &found->slip : nullptr;
 }
 
 /// Worst tremble of the slides up to `fastest_calm_m_s`.
-double worst_tremble_mm(const ContestantResult& contestant) {
+double worst_tremble_mm(const FilterResult& filter) {
     double worst = 0.0;
-    for (const SpeedSlip& slide : contestant.trembles) {
+    for (const SpeedSlip& slide : filter.trembles) {
         worst = slide.speed_m_s <= fastest_calm_m_s ? std::fmax(worst, slide.slip.rms) : worst;
     }
     return worst;
@@ -44,7 +43,7 @@ double worst_tremble_mm(const ContestantResult& contestant) {
 
 std::vector<LimitVerdict> judge(const TrackerResult& result, const LatencyOptions& options) {
     std::vector<LimitVerdict> verdicts;
-    const ContestantResult& shown = named(result, "exhibit, as shown");
+    const FilterResult& shown = named(result, "exhibit, as shown");
     const Slip* with = at_speed(shown, judged_speed_m_s);
     const Slip* without = at_speed(named(result, "exhibit"), judged_speed_m_s);
     if (with != nullptr && without != nullptr && without->rms > 0.0) {
@@ -92,16 +91,15 @@ std::string latency_table(const TrackerResult& result, const LatencyOptions& opt
         text += fmt::format(" {:>6}", fmt::format("{:g}", speed_m_s));
     }
     text += " m/s: jitter, RMS\n";
-    for (const ContestantResult& contestant : result.contestants) {
-        text += fmt::format("{:<29}", contestant.name);
-        for (const SpeedSlip& stroke : contestant.strokes) {
+    for (const FilterResult& filter : result.filters) {
+        text += fmt::format("{:<29}", filter.name);
+        for (const SpeedSlip& stroke : filter.strokes) {
             text +=
                 fmt::format("   {:5.2f} {:5.2f} {:5.2f}", stroke.slip.mean, stroke.slip.p95, stroke.slip.rms);
         }
-        text += fmt::format(" {:6.3f} {:6.2f} {:6.2f} {:6.2f} {:6.2f} ", contestant.rest.rms,
-                            contestant.stop.mean, contestant.stop.p95, contestant.stop.ahead_mean,
-                            contestant.stop.ahead_p95);
-        for (const SpeedSlip& slide : contestant.trembles) {
+        text += fmt::format(" {:6.3f} {:6.2f} {:6.2f} {:6.2f} {:6.2f} ", filter.rest.rms, filter.stop.mean,
+                            filter.stop.p95, filter.stop.ahead_mean, filter.stop.ahead_p95);
+        for (const SpeedSlip& slide : filter.trembles) {
             text += fmt::format(" {:6.2f}", slide.slip.rms);
         }
         text += "\n";
@@ -122,28 +120,28 @@ std::string recordings_table(std::span<const RecordingResult> recordings) {
 
 std::string latency_csv(std::span<const TrackerResult> results, std::span<const RecordingResult> recordings) {
     std::string text = "source,contestant,motion,speed_m_s,latency_ms,mean_mm,p95_mm,rms_mm\n";
-    const auto row = [&](const std::string& source, const std::string& contestant, const char* motion,
+    const auto row = [&](const std::string& source, const std::string& filter_name, const char* motion,
                          double speed_m_s, double latency_ms, const Slip& slip) {
-        text += fmt::format("\"{}\",\"{}\",{},{:g},{:g},{:.4f},{:.4f},{:.4f}\n", source, contestant, motion,
+        text += fmt::format("\"{}\",\"{}\",{},{:g},{:g},{:.4f},{:.4f},{:.4f}\n", source, filter_name, motion,
                             speed_m_s, latency_ms, slip.mean, slip.p95, slip.rms);
     };
     for (const TrackerResult& result : results) {
-        for (const ContestantResult& contestant : result.contestants) {
+        for (const FilterResult& filter : result.filters) {
             const std::string& source = result.tracker.name;
-            for (const SpeedSlip& stroke : contestant.strokes) {
-                row(source, contestant.name, "strokes", stroke.speed_m_s, result.total_ms, stroke.slip);
+            for (const SpeedSlip& stroke : filter.strokes) {
+                row(source, filter.name, "strokes", stroke.speed_m_s, result.total_ms, stroke.slip);
             }
-            for (const SpeedSlip& slide : contestant.trembles) {
-                row(source, contestant.name, "tremble", slide.speed_m_s, result.total_ms, slide.slip);
+            for (const SpeedSlip& slide : filter.trembles) {
+                row(source, filter.name, "tremble", slide.speed_m_s, result.total_ms, slide.slip);
             }
-            for (const LatencySlip& latency : contestant.latencies) {
-                row(source, contestant.name, "latency", latency_speed_m_s, latency.total_ms, latency.slip);
+            for (const LatencySlip& latency : filter.latencies) {
+                row(source, filter.name, "latency", latency_speed_m_s, latency.total_ms, latency.slip);
             }
-            row(source, contestant.name, "rest", 0.0, result.total_ms, contestant.rest);
-            const Overshoot& stop = contestant.stop;
-            row(source, contestant.name, "stop_overshoot", stop_speed_m_s, result.total_ms,
+            row(source, filter.name, "rest", 0.0, result.total_ms, filter.rest);
+            const Overshoot& stop = filter.stop;
+            row(source, filter.name, "stop_overshoot", stop_speed_m_s, result.total_ms,
                 {stop.mean, stop.p95, stop.rms});
-            row(source, contestant.name, "stop_ahead", stop_speed_m_s, result.total_ms,
+            row(source, filter.name, "stop_ahead", stop_speed_m_s, result.total_ms,
                 {stop.ahead_mean, stop.ahead_p95, stop.ahead_rms});
         }
     }

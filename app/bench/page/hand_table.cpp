@@ -8,7 +8,7 @@ namespace frustumscreen::bench {
 namespace {
 
 struct Column {
-    const char* contestant;
+    const char* filter_name;
     const char* where;
     const char* field;
 };
@@ -24,7 +24,7 @@ constexpr std::array columns = {Column{"for the table", "hand", "slip_mean_mm"},
 
 /// One figure of a replay, in mm; empty if it was not measured.
 Result<std::string> replayed_mm(const CsvTable& table, std::vector<std::size_t> rows, const Column& column) {
-    TRY(rows, rows_with(table, rows, "contestant", column.contestant));
+    TRY(rows, rows_with(table, rows, "contestant", column.filter_name));
     TRY(rows, rows_with(table, rows, "where", column.where));
     if (rows.empty()) {
         return std::string();

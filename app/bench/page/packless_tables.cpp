@@ -85,14 +85,14 @@ constexpr const char* tracker_240_hz = "Polhemus VIPER";
 struct Filtered {
     const char* words;
     const char* source;
-    const char* contestant;
+    const char* filter_name;
 };
 
 /// One figure of a filter, in mm; empty if it was not measured.
 Result<std::string> filtered_mm(const CsvTable& table, const Filtered& filtered, std::string_view motion,
                                 double speed_m_s, std::string_view column, int shown_decimals) {
     TRY(std::vector<std::size_t> rows, rows_with(table, "source", filtered.source));
-    TRY(rows, rows_with(table, rows, "contestant", filtered.contestant));
+    TRY(rows, rows_with(table, rows, "contestant", filtered.filter_name));
     TRY(rows, rows_with(table, rows, "motion", motion));
     for (const std::size_t row : rows) {
         TRY(const double speed, table.number(row, "speed_m_s"));

@@ -228,7 +228,7 @@ Followed follow(std::uint32_t first_counter, std::uint32_t first_tick) {
     }
     const tracker::TrackerCounts counts = intake.counts();
     followed.refused = static_cast<double>(counts.lost + counts.duplicated + counts.reordered +
-                                           counts.strange + counts.clock_restarts);
+                                           counts.implausible + counts.clock_restarts);
     return followed;
 }
 

@@ -66,7 +66,7 @@ double relieved_after(double step_s) {
 double exact_relief() {
     const long double share = std::log(scene::Governor::leave_share * deadline_ms / 8.5L) / std::log(2.5L);
     return static_cast<double>(-scene::FrameTimeModel::time_constant_s * std::log1p(-share)) +
-           to_seconds(scene::Governor::relief_delay);
+           to_seconds(scene::Governor::leave_delay);
 }
 
 constexpr std::array relief_steps{1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 240.0, 1.0 / 60.0, 0.05, 0.1, 1.0, 10.0};

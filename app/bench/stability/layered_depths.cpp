@@ -208,7 +208,7 @@ StabilityResult depths(const StabilityOptions&) {
 }
 
 /// Counts pixels whose nearness occurs nowhere within two pixels in another picture. Two pixels: half a splat's size and a rounding.
-double strangers(const ldi::DepthPicture& picture, const ldi::DepthPicture& other) {
+double unmatched_pixels(const ldi::DepthPicture& picture, const ldi::DepthPicture& other) {
     double count = 0.0;
     for (int y = 0; y < view.height; ++y) {
         for (int x = 0; x < view.width; ++x) {
@@ -240,7 +240,7 @@ StabilityResult at_the_images_eye(const StabilityOptions&) {
                   glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(-1.0, 1.0, 1.0)}) {
                 ldi::DepthPicture moved = picture_for(own + way_m * towards);
                 ldi::splat(seen.images[image], moved);
-                differs += strangers(moved, still);
+                differs += unmatched_pixels(moved, still);
             }
         }
     }

@@ -33,16 +33,16 @@ std::string name_of(torch::Attenuation attenuation) {
 }
 
 /// By the definitions in torch.h.
-Real exact_attenuation(const torch::Beam& beam, Real way) {
+Real exact_attenuation(const torch::Beam& beam, Real distance) {
     const Real full = beam.full_m;
     const Real dark = beam.dark_m;
-    if (way <= full) {
+    if (distance <= full) {
         return 1;
     }
-    const Real t = std::fmin(Real(1), (way - full) / (dark - full));
+    const Real t = std::fmin(Real(1), (distance - full) / (dark - full));
     switch (beam.attenuation) {
     case torch::Attenuation::InverseSquare:
-        return (full / way) * (full / way);
+        return (full / distance) * (full / distance);
     case torch::Attenuation::Linear:
         return 1 - t;
     case torch::Attenuation::SmoothStep:
@@ -67,10 +67,10 @@ StabilityResult openings(const StabilityOptions&) {
         double off = 0.0;
         double wrong = 0.0;
         double compared = 0.0;
-        for (const double way_m : sweep(1e-6, 1e3, 10)) {
+        for (const double distance_m : sweep(1e-6, 1e3, 10)) {
             for (int k = 0; k < 50; ++k) {
-                const glm::dvec3 point(u(random) * double(half) * way_m, u(random) * double(half) * way_m,
-                                       way_m);
+                const glm::dvec3 point(u(random) * double(half) * distance_m,
+                                       u(random) * double(half) * distance_m, distance_m);
                 const Real x = Real(point.x) / (Real(point.z) * half);
                 const Real y = Real(point.y) / (Real(point.z) * half);
                 const Real edge = 1 - std::fmax(std::fabs(x), std::fabs(y));
@@ -95,7 +95,7 @@ StabilityResult openings(const StabilityOptions&) {
 }
 
 /// On the torch's own lens, right before it, beside it, behind it.
-StabilityResult at_no_way(const StabilityOptions&) {
+StabilityResult at_the_lens(const StabilityOptions&) {
     double lit_wrongly = 0.0;
     double dark_wrongly = 0.0;
     double not_full = 0.0;
@@ -106,13 +106,13 @@ StabilityResult at_no_way(const StabilityOptions&) {
                 beam.opening_rad = opening_deg * radians_of_deg;
                 beam.shape = shape;
                 beam.attenuation = attenuation;
-                for (const double way_m : {0.0, 1e-300, 1e-12, 1e-6, 1e-3}) {
-                    not_full += torch::attenuation_at(beam, way_m) == 1.0 ? 0.0 : 1.0;
-                    const bool lit = torch::intensity_at(beam, {0.0, 0.0, way_m}) == 1.0;
-                    lit_wrongly += way_m == 0.0 && lit ? 1.0 : 0.0;
-                    dark_wrongly += way_m > 0.0 && !lit ? 1.0 : 0.0;
-                    lit_wrongly += torch::place_in_content(beam, {0.0, 0.0, -way_m}) ? 1.0 : 0.0;
-                    lit_wrongly += torch::place_in_content(beam, {way_m, -way_m, 0.0}) ? 1.0 : 0.0;
+                for (const double distance_m : {0.0, 1e-300, 1e-12, 1e-6, 1e-3}) {
+                    not_full += torch::attenuation_at(beam, distance_m) == 1.0 ? 0.0 : 1.0;
+                    const bool lit = torch::intensity_at(beam, {0.0, 0.0, distance_m}) == 1.0;
+                    lit_wrongly += distance_m == 0.0 && lit ? 1.0 : 0.0;
+                    dark_wrongly += distance_m > 0.0 && !lit ? 1.0 : 0.0;
+                    lit_wrongly += torch::place_in_content(beam, {0.0, 0.0, -distance_m}) ? 1.0 : 0.0;
+                    lit_wrongly += torch::place_in_content(beam, {distance_m, -distance_m, 0.0}) ? 1.0 : 0.0;
                 }
             }
         }
@@ -139,7 +139,7 @@ double condition_of(const torch::Beam& beam) {
                                                                  : beam.dark_m / (beam.dark_m - beam.full_m);
 }
 
-/// A step's share rounds as its numbers do: way / (dark - full) roundings.
+/// A step's share rounds as its numbers do: distance / (dark - full) roundings.
 StabilityResult attenuations(const StabilityOptions&) {
     StabilityResult result;
     for (const torch::Attenuation attenuation : falling) {
@@ -149,9 +149,10 @@ StabilityResult attenuations(const StabilityOptions&) {
         for (const torch::Beam& beam : beams_of(attenuation)) {
             const double condition = condition_of(beam);
             double before = 1.0;
-            for (const double way_m : sweep(1e-9, 1e6, 200)) {
-                const double now = torch::attenuation_at(beam, way_m);
-                off = std::fmax(off, std::fabs(now - double(exact_attenuation(beam, way_m))) / condition);
+            for (const double distance_m : sweep(1e-9, 1e6, 200)) {
+                const double now = torch::attenuation_at(beam, distance_m);
+                off =
+                    std::fmax(off, std::fabs(now - double(exact_attenuation(beam, distance_m))) / condition);
                 outside += now >= 0.0 && now <= 1.0 ? 0.0 : 1.0;
                 brightens += now <= before ? 0.0 : 1.0;
                 before = now;
@@ -264,7 +265,7 @@ StabilityResult no_poses(const StabilityOptions&) {
 std::vector<StabilityCase> torch_cases() {
     const std::string theme = "torch";
     return {{theme, "beams of 0.01 to 179 degrees", FloatingPoint::Strict, openings},
-            {theme, "0 mm before its lens, beside and behind it", FloatingPoint::Strict, at_no_way},
+            {theme, "0 mm before its lens, beside and behind it", FloatingPoint::Strict, at_the_lens},
             {theme, "attenuation from 1 nm to 1000 km", FloatingPoint::Strict, attenuations},
             {theme, "attenuation at its reach", FloatingPoint::Strict, at_its_reach},
             {theme, "content after ten years", FloatingPoint::Strict, for_years},

@@ -84,10 +84,10 @@ DrawnSurface::Hit DrawnSurface::first_hit(const glm::dvec3& origin, const glm::d
         }
         const glm::dvec3 point(solid->prop_from_box *
                                glm::dvec4(from + static_cast<double>(hit.distance) * towards, 1.0));
-        const double way_m = glm::distance(point, origin);
-        if (!first.hit || way_m < first.way_m) {
+        const double distance_m = glm::distance(point, origin);
+        if (!first.hit || distance_m < first.distance_m) {
             const glm::dmat3 normals = glm::transpose(glm::dmat3(solid->box_from_prop));
-            first = {true, way_m, point, unit_or_zero(normals * glm::dvec3(hit.normal))};
+            first = {true, distance_m, point, unit_or_zero(normals * glm::dvec3(hit.normal))};
         }
     }
     return first;

@@ -30,7 +30,7 @@ public:
 
     struct Hit {
         bool hit = false;
-        double way_m = 0.0;
+        double distance_m = 0.0;
         glm::dvec3 point_m{0.0};
         glm::dvec3 normal{0.0}; ///< unit, outward
     };

@@ -24,13 +24,14 @@ private:
 };
 
 /// From a point in the box to its surface.
-double way_out(const geometry::Box& box, const glm::dvec3& point, const glm::dvec3& direction) {
-    double way = std::numeric_limits<double>::infinity();
+double exit_distance(const geometry::Box& box, const glm::dvec3& point, const glm::dvec3& direction) {
+    double distance = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         const double side = direction[axis] > 0.0 ? box.high[axis] : box.low[axis];
-        way = direction[axis] != 0.0 ? std::min(way, (side - point[axis]) / direction[axis]) : way;
+        distance =
+            direction[axis] != 0.0 ? std::min(distance, (side - point[axis]) / direction[axis]) : distance;
     }
-    return way;
+    return distance;
 }
 
 struct Hand {
@@ -51,7 +52,7 @@ struct Hand {
         const double elevation = 0.85 + 0.45 * up.at(seconds);
         const glm::dvec3 towards_torch(std::cos(elevation) * std::cos(azimuth),
                                        std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-        const double away_m = way_out(box, aim, towards_torch) + 0.08 + 0.05 * away.at(seconds);
+        const double away_m = exit_distance(box, aim, towards_torch) + 0.08 + 0.05 * away.at(seconds);
         const glm::dvec3 down(0.0, 0.0, -1.0);
         const glm::dvec3 x = glm::normalize(glm::cross(down, -towards_torch));
         const glm::dmat3 axes(x, glm::cross(-towards_torch, x), -towards_torch);

@@ -159,9 +159,9 @@ bool Truth::first_hit(const glm::dvec3& origin, const glm::dvec3& direction, Hit
 }
 
 /// Follows the projector's rays to the prop and continues along the eye's rays.
-class Truth::Looker {
+class Truth::RayCaster {
 public:
-    Looker(const Truth& truth, const geometry::PropShape& prop, const TruthView& view)
+    RayCaster(const Truth& truth, const geometry::PropShape& prop, const TruthView& view)
         : truth_(truth), prop_(prop), view_(view) {}
 
     enum class Seen { Nothing, Prop, Artifact };
@@ -224,13 +224,13 @@ TruthPicture Truth::cast(const geometry::PropShape& prop, const TruthView& view,
                          .point_m = {width, height, glm::vec3(std::numeric_limits<float>::quiet_NaN())},
                          .colour = {width, height, black},
                          .colour16 = {}};
-    const Looker looker(*this, prop, view);
+    const RayCaster caster(*this, prop, view);
     const LitSource* const lit = sixteen_rays ? lit_.get() : nullptr;
-    looker.for_each_pixel([&](int x, int y) {
-        Looker::Sight sight;
-        const Looker::Seen seen = looker.look({x + 0.5, y + 0.5}, sight);
-        picture.prop.at(x, y) = seen != Looker::Seen::Nothing ? 1 : 0;
-        if (seen == Looker::Seen::Artifact) {
+    caster.for_each_pixel([&](int x, int y) {
+        RayCaster::Sight sight;
+        const RayCaster::Seen seen = caster.look({x + 0.5, y + 0.5}, sight);
+        picture.prop.at(x, y) = seen != RayCaster::Seen::Nothing ? 1 : 0;
+        if (seen == RayCaster::Seen::Artifact) {
             PixelLight(lit).apply(sight.direction, sight.hit);
             picture.hit.at(x, y) = 1;
             picture.point_m.at(x, y) = glm::vec3(sight.hit.point_m);
@@ -245,14 +245,14 @@ TruthPicture Truth::cast(const geometry::PropShape& prop, const TruthView& view,
         aim != nullptr ? std::optional<ShownLight>(std::in_place, *aim, prop, view) : std::nullopt;
     picture.shown16 = shown ? image::Image8(width, height, black) : image::Image8();
     picture.met_by_16 = image::Image<std::uint8_t>(width, height);
-    looker.for_each_pixel([&](int x, int y) {
+    caster.for_each_pixel([&](int x, int y) {
         if (!hit_around(picture.hit, x, y)) {
             return;
         }
         PixelLight light(lit);
         glm::vec3 sum(0.0F);
         glm::vec3 shown_sum(0.0F);
-        looker.look_through(x, y, {4, 4}, [&](Looker::Sight& met) {
+        caster.look_through(x, y, {4, 4}, [&](RayCaster::Sight& met) {
             light.apply(met.direction, met.hit);
             const glm::vec3 colour = glm::clamp(met.hit.colour.linear, 0.0F, 1.0F);
             sum += colour;
@@ -272,15 +272,15 @@ TruthPicture Truth::cast(const geometry::PropShape& prop, const TruthView& view,
 image::Image<float> Truth::cover(const geometry::PropShape& prop, const TruthView& view,
                                  const TruthPicture& picture, const glm::ivec2& rays) const {
     image::Image<float> cover(view.projector.width, view.projector.height);
-    const Looker looker(*this, prop, view);
-    looker.for_each_pixel([&](int x, int y) {
+    const RayCaster caster(*this, prop, view);
+    caster.for_each_pixel([&](int x, int y) {
         const int met = picture.met_by_16.at(x, y);
         float& share = cover.at(x, y);
         if (met == 0 || met == 16) {
             share = met == 0 ? 0.0F : 1.0F;
             return;
         }
-        looker.look_through(x, y, rays, [&](const Looker::Sight&) { share += 1.0F; });
+        caster.look_through(x, y, rays, [&](const RayCaster::Sight&) { share += 1.0F; });
         share /= static_cast<float>(rays.x * rays.y);
     });
     return cover;

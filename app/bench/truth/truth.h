@@ -72,7 +72,7 @@ public:
     [[nodiscard]] const std::shared_ptr<const TracedMesh>& traced() const { return traced_; }
 
 private:
-    class Looker;
+    class RayCaster;
     explicit Truth(std::shared_ptr<const TracedMesh> traced) : traced_(std::move(traced)) {}
     std::shared_ptr<const TracedMesh> traced_;
     std::shared_ptr<const LitSource> lit_; ///< null: colours are the source's own

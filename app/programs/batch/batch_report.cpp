@@ -19,7 +19,8 @@ constexpr std::array all_statuses{BatchStatus::Baked, BatchStatus::Unchanged, Ba
                                   BatchStatus::Missing};
 
 constexpr std::string_view style = R"(
-body { margin: 0 auto; max-width: 120rem; padding: 1.5rem; color: #1d2024; background: #fbfaf7; font: 15px/1.5 system-ui, "Noto Sans", sans-serif; }
+body { margin: 0 auto; max-width: 120rem; padding: 1.5rem; color: #1d2024; background: #fbfaf7;
+       font: 15px/1.5 system-ui, "Noto Sans", sans-serif; }
 h1 { font: normal 1.9rem/1.2 Georgia, "Noto Serif", serif; margin: .5rem 0; }
 table { width: 100%; border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: .35rem .9rem .35rem 0; text-align: right; vertical-align: top; border-bottom: 1px solid #dcdfe3; }

@@ -20,8 +20,8 @@ namespace frustumscreen::programs {
 
 template <typename Way> class ProcedureTable {
 public:
-    /// The functions that differ between kinds of ways.
-    struct Manner {
+    /// Functions and settings that differ between kinds of ways.
+    struct Callbacks {
         std::function<void(Way&)> solve; ///< in stage Solve: computes the verdict
         /// A step with the input; a camera adds its frames.
         std::function<void(Way&, calibration::CalibrationInput&)> step =
@@ -33,8 +33,8 @@ public:
         bool with_camera = false; ///< frames have the system's time, so no time is skipped
     };
     /// `devices` must outlive it.
-    ProcedureTable(TableDevices& devices, const settings::Settings& settings, Manner manner)
-        : devices_(devices), manner_(std::move(manner)) {
+    ProcedureTable(TableDevices& devices, const settings::Settings& settings, Callbacks callbacks)
+        : devices_(devices), callbacks_(std::move(callbacks)) {
         const double focal_px = settings.projector.pinhole.fx;
         above_m_ = settings.projector.table_from_projector.translation.z;
         prop_px_ = settings.prop.base_m * focal_px / above_m_;
@@ -44,7 +44,7 @@ public:
     /// Runs the way to its end and keeps the result. Nothing if it ended without one.
     [[nodiscard]] Result<std::optional<WayEnd>> measure(Way& way) {
         const Result<bool> ended = run(way);
-        TRY_VOID(manner_.write(way));
+        TRY_VOID(callbacks_.write(way));
         TRY_VOID(ended);
         if (!*ended) {
             return std::nullopt;
@@ -53,8 +53,8 @@ public:
             return WayEnd::GoesOn;
         }
         const bool is_done = way.stage() == calibration::CalibrationStage::Done;
-        if (const Result<void> kept = is_done ? manner_.keep(way) : Result<void>(); !kept) {
-            Way told = manner_.why_not(kept.error().message);
+        if (const Result<void> kept = is_done ? callbacks_.keep(way) : Result<void>(); !kept) {
+            Way told = callbacks_.why_not(kept.error().message);
             static_cast<void>(run(told)); // a technician at the table does not read standard error
             return tl::unexpected(kept.error());
         }
@@ -72,11 +72,11 @@ private:
                 return true;
             }
             if (way.stage() == calibration::CalibrationStage::Solve) {
-                manner_.solve(way);
+                callbacks_.solve(way);
             }
             calibration::CalibrationInput heard = devices_.hear(now);
             heard.lit = lit_;
-            manner_.step(way, heard);
+            callbacks_.step(way, heard);
             wait();
         }
         return false;
@@ -89,10 +89,10 @@ private:
         }
     }
     void wait() {
-        if (devices_.is_headless() && !manner_.with_camera) {
-            devices_.pass_over(manner_.between_rounds);
+        if (devices_.is_headless() && !callbacks_.with_camera) {
+            devices_.pass_over(callbacks_.between_rounds);
         } else {
-            std::this_thread::sleep_for(manner_.between_rounds);
+            std::this_thread::sleep_for(callbacks_.between_rounds);
         }
     }
     [[nodiscard]] Result<void> show(const Way& way, MonotonicTime now) {
@@ -117,7 +117,7 @@ private:
     }
 
     TableDevices& devices_;
-    Manner manner_;
+    Callbacks callbacks_;
     double above_m_, prop_px_, board_px_; ///< height of the projector; approximate widths on the table
     TableWords words_;                    ///< the shown words
     std::optional<calibration::CalibrationInput::Lit> lit_;

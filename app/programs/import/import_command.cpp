@@ -291,7 +291,7 @@ std::optional<library::ImportReport> tell_unmounted(const ImportArguments& argum
     // If the folder cannot be locked, no import runs either.
     const Result<FolderLock> lock = FolderLock::wait_for(arguments.into);
     const std::string id = import_id(arguments);
-    if (!library::is_to_be_told_unmounted(library::read_import_report(arguments.report), id)) {
+    if (!library::must_report_unmounted(library::read_import_report(arguments.report), id)) {
         return std::nullopt;
     }
     library::wait_for_readers(arguments.report, id, arguments.report_stands_s);
@@ -301,11 +301,11 @@ std::optional<library::ImportReport> tell_unmounted(const ImportArguments& argum
 }
 
 Result<void> tell_ended(const ImportArguments& arguments, std::string_view service_result) {
-    const std::optional<library::ImportReport> word =
-        library::last_word(library::read_import_report(arguments.report), import_id(arguments),
-                           service_result, set_number(arguments));
-    return word ? write_file(arguments.report, as_bytes(library::write_import_report(*word)))
-                : Result<void>();
+    const std::optional<library::ImportReport> report =
+        library::final_report_of(library::read_import_report(arguments.report), import_id(arguments),
+                                 service_result, set_number(arguments));
+    return report ? write_file(arguments.report, as_bytes(library::write_import_report(*report)))
+                  : Result<void>();
 }
 
 Result<std::string> list_installed(const ImportArguments& arguments) {
