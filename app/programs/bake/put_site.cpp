@@ -86,8 +86,8 @@ std::vector<std::string> report_of(const pack::PackWorld& world, const std::vect
                         fewest, most),
             fmt::format("finest levels: {} triangles in all, mean error of a region up to {:.3f} mm", finest,
                         finest_mm),
-            fmt::format("coarsest levels: {} triangles in all, mean error of a region up to {:.3f} mm", coarsest,
-                        coarsest_mm)};
+            fmt::format("coarsest levels: {} triangles in all, mean error of a region up to {:.3f} mm",
+                        coarsest, coarsest_mm)};
 }
 
 } // namespace
