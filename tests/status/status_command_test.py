@@ -142,8 +142,8 @@ class Text(Status):
                          "set 7, 1 pack: Amphora; the newest is set 8, bad: dog.fspack is damaged")
         self.assertEqual(self.line(text, "left out"), "cat.fspack: it is damaged")
         self.assertRegex(self.line(text, "starts"),
-                         r"^it runs for 10 h 0 min; it has ended 2 times, last 4 min ago: it no longer fed systemd's "
-                         r"watchdog \(killed KILL\)$")
+                         r"^it runs for 10 h 0 min; it has ended 2 times, last 4 min ago: it stopped reporting "
+                         r"to systemd \(killed KILL\)$")
         self.assertIn("1 restart of the machine today", self.line(text, "watchdog"))
         self.assertEqual(self.line(text, "last faults"),
                          "2026-05-01T08:30:00Z no live picture: the exhibit is started again, which did not help (killed KILL)")
