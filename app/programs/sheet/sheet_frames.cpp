@@ -222,7 +222,8 @@ Result<image::Image8> read_picture(const SheetFrame& frame, const geometry::Pinh
     if (std::abs(picture.width * projector.height - picture.height * projector.width) >
         std::max(projector.width, projector.height)) {
         return bad_input("sheet.frame_shape",
-                         "{}: {} x {} pixels do not have the shape of the configured projector's {} x {}",
+                         "{}: {} x {} pixels do not have the shape of the configured projector's {} x {}; "
+                         "name the settings with which they were drawn",
                          frame.picture.string(), picture.width, picture.height, projector.width,
                          projector.height);
     }
