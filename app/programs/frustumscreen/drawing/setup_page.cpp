@@ -261,8 +261,7 @@ std::optional<settings::Rectangle> evenly_lit(const settings::Settings& settings
 std::string describe_hand_zone(const settings::LitZone& zone) {
     return zone.any_eye.empty()
                ? std::string("The prop inside the picture\n  There is no place where it stays inside at "
-                             "every turn: hang the projector "
-                             "higher, or take a smaller prop.\n")
+                             "every turn: hang the projector higher, or take a smaller prop.\n")
                : fmt::format("The prop inside the picture\n  At every turn while its middle is within {},\n  "
                              "the largest rectangle in a zone of {:.3f} m2.\n",
                              words_of(zone.any_eye_rectangle), settings::area_of(zone.any_eye));
