@@ -143,7 +143,7 @@ void draw_figures(Sheet& sheet, const CountsSummary& summary) {
     const std::array<std::pair<std::string, const char*>, 4> figures{
         {{grouped(summary.all.visits), "visits"},
          {minutes < 600 ? grouped(minutes) : grouped((minutes + 30) / 60),
-          minutes < 600 ? "minutes together" : "hours together"},
+          minutes < 600 ? "minutes in all" : "hours in all"},
          {visits > 0 ? fmt::format("{:.1f}", minutes_of(summary.all) / visits) : "–", "minutes a visit"},
          {fmt::format("{:.0f}", visits / static_cast<double>(summary.days)), "visits a day"}}};
     sheet.text({margin, 58}, "Visits", 28, ink, "start", true);

@@ -141,7 +141,7 @@ std::string counts_text(const ReadCounts& counts) {
         fmt::format_to(out, "{} to {}, {} with numbers\n", text_of_day(summary.first),
                        text_of_day(summary.last),
                        summary.days == 1 ? "1 day" : fmt::format("{} days", summary.days));
-        fmt::format_to(out, "{} visits, {} minutes together", grouped(summary.all.visits),
+        fmt::format_to(out, "{} visits, {} minutes in all", grouped(summary.all.visits),
                        grouped(whole_minutes_of(summary.all)));
         if (summary.all.visits > 0) {
             const auto by_visits = [](const Tally& a, const Tally& b) { return a.visits < b.visits; };

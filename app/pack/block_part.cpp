@@ -163,7 +163,7 @@ Result<void> read_grids(ByteReader& reader, const Header& header, relief::BlockR
         }
     }
     if (first != header.blocks) {
-        return bad_input("blocks.count_of_directions", "its directions have {} blocks together, it has {}",
+        return bad_input("blocks.count_of_directions", "its directions have {} blocks in all, it has {}",
                          first, header.blocks);
     }
     relief.first_block.push_back(header.blocks);

@@ -125,7 +125,7 @@ Result<void> check_cells(const std::vector<PackCell>& cells, const PackDescripti
         if (!is_invertible(poses[k].box_from_geometry)) {
             return bad_input(
                 "cell.chain",
-                "the poses from the artifact down to cell '{}' do not give a finite one together",
+                "the poses from the artifact down to cell '{}' combine to one that is not finite",
                 printable(cells[k].cell.name, 40));
         }
     }

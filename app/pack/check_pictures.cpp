@@ -34,7 +34,7 @@ Result<void> check_textures(const Pack& pack, Read read) {
         together += static_cast<std::int64_t>(pack.textures[k].texels.size());
     }
     if (together > max_texels_together) {
-        return bad_input("pack.textures_together", "the textures have {} texels together, allowed are {}",
+        return bad_input("pack.textures_together", "the textures have {} texels in all, allowed are {}",
                          together, max_texels_together);
     }
     return {};

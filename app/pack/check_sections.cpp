@@ -56,7 +56,7 @@ Result<void> check_sections(const PackDescription& pack) {
         data_bytes += section.data.size();
         if (data_bytes > max_section_data_bytes) {
             return bad_input("sections.too_large",
-                             "the sections have more than {} bytes of data together; put what is large "
+                             "the sections have more than {} bytes of data in all; put what is large "
                              "into parts",
                              max_section_data_bytes);
         }

@@ -60,7 +60,7 @@ void check_parts(Refusal& refusal, const std::vector<PartRecord>& parts) {
     }
     if (together > max_parts_bytes) {
         refusal.refuse("manifest.parts_together", "parts",
-                       fmt::format("have {} bytes together, allowed are {}", together, max_parts_bytes));
+                       fmt::format("have {} bytes in all, allowed are {}", together, max_parts_bytes));
     }
 }
 

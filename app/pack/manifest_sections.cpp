@@ -125,7 +125,7 @@ void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifes
         data_bytes += record.data.size();
         if (data_bytes > max_section_data_bytes) {
             refusal.refuse("manifest.sections_too_large", "sections",
-                           fmt::format("have more than {} bytes of data together; allowed are fewer",
+                           fmt::format("have more than {} bytes of data in all; allowed are fewer",
                                        max_section_data_bytes));
         }
         if (refusal.error) {
@@ -140,7 +140,7 @@ void take_sections(Refusal& refusal, std::vector<SectionRecord> records, Manifes
     }
     if (parts > max_section_parts) {
         refusal.refuse("manifest.section_part_count", "sections",
-                       fmt::format("have {} parts together, allowed are {}", parts, max_section_parts));
+                       fmt::format("have {} parts in all, allowed are {}", parts, max_section_parts));
     }
 }
 

@@ -105,7 +105,7 @@ Result<void> list_parts(const std::vector<Part>& parts, Manifest& manifest) {
         together += part.bytes.size();
         if (part.bytes.empty() || part.bytes.size() > max_part_bytes || together > max_parts_bytes) {
             return bad_input("pack.part_too_large",
-                             "{} has {} bytes; allowed are 1 to {}, and {} for all parts together", part.name,
+                             "{} has {} bytes; allowed are 1 to {}, and {} for all parts", part.name,
                              part.bytes.size(), max_part_bytes, max_parts_bytes);
         }
         manifest.parts.push_back({part.name, part.bytes.size(), sha256_hex(part.bytes)});

@@ -88,7 +88,7 @@ Result<BlockSheet> sheet_of(const relief::BlockRelief& relief, int max_texels) {
         widest > max_texels) {
         return fail(ErrorKind::BadConfiguration, "render.relief_too_wide",
                     "render: a relief of {} blocks needs textures of {} texels a side; this driver allows "
-                    "{}: take a coarser relief, or one that is cast, whose technique has no -gpu",
+                    "{}: take a coarser relief, or a technique without -gpu",
                     relief.blocks.size(), widest, max_texels);
     }
     return sheet;
@@ -188,10 +188,9 @@ Result<void> BlockUpload::go_on(std::uint64_t max_bytes) {
         upload_row();
     }
     if (glGetError() != GL_NO_ERROR) {
-        return fail(
-            ErrorKind::BadConfiguration, "render.no_room_for_relief",
-            "render: the driver has no memory for the relief; take a coarser one, or one that is cast, whose "
-            "technique has no -gpu");
+        return fail(ErrorKind::BadConfiguration, "render.no_room_for_relief",
+                    "render: the driver has no memory for the relief; take a coarser one, or a technique "
+                    "without -gpu");
     }
     return {};
 }

@@ -128,7 +128,8 @@ Result<scene::TextureId> GpuStore::upload(const image::Image<std::uint8_t>& cove
     const int limit = max_texels();
     if (coverage.width < 1 || coverage.height < 1 || std::max(coverage.width, coverage.height) > limit) {
         return fail(ErrorKind::BadConfiguration, "render.caption_size",
-                    "render: a caption of {} x {} pixels; this driver allows 1 to {}: use smaller letters",
+                    "render: a caption has {} x {} pixels, and this driver allows 1 to {} on each side; use "
+                    "smaller letters",
                     coverage.width, coverage.height, limit);
     }
     return keep(upload_coverage(coverage), 0);
@@ -140,7 +141,9 @@ Result<scene::TextureId> GpuStore::upload_picture(std::span<const image::Image8>
     const int limit = max_texels();
     if (width < 1 || height < 1 || std::max(width, height) > limit) {
         return fail(ErrorKind::BadConfiguration, "render.picture_size",
-                    "render: a picture of {} x {} texels; this driver allows 1 to {}", width, height, limit);
+                    "render: a picture has {} x {} texels, and this driver allows 1 to {} on each side; use "
+                    "a smaller picture",
+                    width, height, limit);
     }
     return keep(upload_light(mips), 0);
 }
@@ -155,8 +158,9 @@ Result<void> GpuStore::add_layer(scene::Drawable& drawable, std::size_t layer, c
     const int limit = max_texels();
     if (texture.width < 1 || texture.height < 1 || std::max(texture.width, texture.height) > limit) {
         return fail(ErrorKind::BadConfiguration, "render.layer_size",
-                    "render: a layer of {} x {} texels; this driver allows 1 to {}", texture.width,
-                    texture.height, limit);
+                    "render: a layer has {} x {} texels, and this driver allows 1 to {} on each side; bake "
+                    "with a smaller --size",
+                    texture.width, texture.height, limit);
     }
     gl::GlTexture texels = gl::GlTexture::generate();
     glBindTexture(GL_TEXTURE_2D, texels.get());

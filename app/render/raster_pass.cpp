@@ -89,7 +89,8 @@ Result<void> RasterPass::prepare(const scene::RenderNeeds& needs, int width, int
     }
     if ((rasterizes || interlocks || layers) && glGetError() != GL_NO_ERROR) {
         return fail(ErrorKind::BadConfiguration, "render.no_room_for_cast",
-                    "render: the driver has no memory for a picture that is cast; use a technique of meshes");
+                    "render: the driver has no memory for the picture of a relief; use a mesh level, such as "
+                    "--technique level1");
     }
     return {};
 }

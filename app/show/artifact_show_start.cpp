@@ -152,11 +152,11 @@ void ArtifactShow::note_language(const settings::Settings& settings) {
         return;
     }
     const std::vector<std::string>& shown = catalogue().front().languages;
-    notes_.push_back(
-        fmt::format("no artifact has captions in '{}'; {} is shown; there are {}", settings.exhibit.language,
-                    shown.empty() ? settings.exhibit.language
-                                  : shown[exhibit::caption_for(settings.exhibit.language, shown)],
-                    fmt::join(languages, ", ")));
+    notes_.push_back(fmt::format(
+        "no artifact has captions in '{}', so {} is shown; the captions are in {}", settings.exhibit.language,
+        shown.empty() ? settings.exhibit.language
+                      : shown[exhibit::caption_for(settings.exhibit.language, shown)],
+        fmt::join(languages, ", ")));
 }
 
 /// Measures at the middle of the table, seen by the default eye. Later artifacts are expected to cost as much as the

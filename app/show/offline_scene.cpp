@@ -82,7 +82,8 @@ Result<void> hold_state(const pack::PackState& state, const pack::PackWorld& wor
         return std::find(state.hidden.begin(), state.hidden.end(), cell.cell) != state.hidden.end();
     });
     if (read.drawn.empty()) {
-        return bad_input("render.empty_state", "--state {}: it hides every part of the artifact", state.name);
+        return bad_input("render.empty_state",
+                         "--state {}: it hides every part of the artifact; name another state", state.name);
     }
     return {};
 }

@@ -24,7 +24,7 @@ constexpr std::array<std::array<std::string_view, 2>, 7> screens_words{{
     {"display: ", ""},
     {"in the dark", "without it"},
     {"; the exhibit must be restarted", "; it is opened again while nobody uses the exhibit"},
-    {" to take it up", ""},
+    {" to use it", ""},
     {"; set display.mode and display.force", "; try another cable"},
     {"eye.stereo", "screen.stereo"},
     {"projector", "screen"},

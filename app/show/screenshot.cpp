@@ -32,7 +32,7 @@ Result<const image::Image8*> Screenshot::take(const std::stop_token& stop) {
     ask();
     if (!comes(monotonic_now() + timeout_, stop)) {
         return fail(ErrorKind::Internal, "show.no_screenshot",
-                    "the exhibit hands out no picture; it hangs, is ending, or shows the "
+                    "the exhibit gives no picture; it hangs, is ending, or shows the "
                     "staff what its camera sees");
     }
     earliest_ = monotonic_now() + between_pictures;

@@ -188,7 +188,7 @@ private:
     }
 
     void add_signal(const char* sensor, const tracking::TrackerSignal& signal) {
-        add(signal.rate_hz <= 0.0 ? fmt::format("{}: nothing comes", sensor)
+        add(signal.rate_hz <= 0.0 ? fmt::format("{}: no samples arrive", sensor)
                                   : fmt::format("{}: {:.0f} samples a second, {:.0f} % of them can be used",
                                                 sensor, signal.rate_hz, 100.0 * signal.usable),
             1.15, true);

@@ -182,7 +182,7 @@ void device_fields(auto& fields, auto& status) {
                         Metric{"visits_total", "Visits since the exhibit was started."});
             inner.field("today_s", visits.today_s);
             inner.field("since_start_s", visits.since_start_s, {},
-                        Metric{"visits_seconds_total", "How long they lasted together."});
+                        Metric{"visits_seconds_total", "Time of these visits, in all."});
             inner.field("trouble", visits.trouble);
         });
     fields.field("prop_known", status.prop_known, "the prop's pose is known now",

@@ -114,7 +114,7 @@ std::string visits_line(const StatusReport& status) {
         return {};
     }
     const VisitsReport& visits = *status.visits;
-    std::string text = fmt::format("today {}, {:.0f} minutes together",
+    std::string text = fmt::format("today {}, {:.0f} minutes in all",
                                    counted(visits.today, "visit", "visits"), visits.today_s / 60.0);
     return visits.trouble.empty() ? text : text + "; " + brief(visits.trouble);
 }

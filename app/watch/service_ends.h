@@ -25,13 +25,13 @@ inline constexpr std::array<ServiceResult, 11> service_results{{
     {"exit-code", "it ended with an error"},
     {"signal", "a signal killed it"},
     {"core-dump", "it crashed"},
-    {"watchdog", "it no longer fed systemd's watchdog"},
+    {"watchdog", "it stopped reporting to systemd"},
     {"timeout", "it took too long to start or to stop"},
     {"oom-kill", "it took too much memory"},
     {"protocol", "it ended before it was ready"},
     {"resources", "the machine could not start it"},
     {"start-limit-hit", "it ended too often"},
-    {"other", "for a reason of systemd's own"},
+    {"other", "systemd ended it for another reason"},
 }};
 
 struct ServiceEnd {

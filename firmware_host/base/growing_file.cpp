@@ -28,7 +28,7 @@ Result<GrowingFile> GrowingFile::create(const std::filesystem::path& wanted) {
         }
     }
     return bad_input("file.too_many_of_name",
-                     wanted.string() + ": there are too many of this name; move them away");
+                     wanted.string() + ": there are too many files of this name; move them away");
 }
 
 GrowingFile::GrowingFile(int descriptor, std::filesystem::path name)

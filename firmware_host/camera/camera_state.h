@@ -57,7 +57,7 @@ enum class CameraState : std::uint8_t {
     case CameraState::Unlocked:
         return {"camera.unlocked",
                 "the camera runs, but its exposure or its white balance cannot be locked, so its picture may "
-                "change by itself; use another camera if that disturbs"};
+                "change by itself; use another camera if that disturbs visitors"};
     case CameraState::Slow:
         return {
             "camera.slow",

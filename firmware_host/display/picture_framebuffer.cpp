@@ -9,8 +9,9 @@ Result<PictureFramebuffer> PictureFramebuffer::create(int width, int height) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width < 1 || height < 1 || width > limit || height > limit) {
         return fail(ErrorKind::BadConfiguration, "display.picture_size",
-                    "display: a picture of {} x {} pixels; this driver draws 1 to {} on each side", width,
-                    height, limit);
+                    "display: the picture has {} x {} pixels, and this driver draws 1 to {} on each side; "
+                    "configure a picture of another size",
+                    width, height, limit);
     }
     PictureFramebuffer picture(width, height);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {

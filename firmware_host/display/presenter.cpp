@@ -14,7 +14,7 @@ namespace {
 
 constexpr Nanoseconds soon = std::chrono::milliseconds(50);
 constexpr std::string_view projector_is_elsewhere =
-    "a projector is at another graphics card; the exhibit must be restarted to take it up";
+    "a projector is at another graphics card; the exhibit must be restarted to use it";
 
 DeviceState asleep() {
     return {{DeviceHealth::Well, "display.asleep"}, Sentence("the projector is dark on purpose")};
@@ -47,7 +47,7 @@ Result<void> Presenter::check_card() {
     if (seen_.state == CardState::Back) {
         return fail(ErrorKind::DeviceLost, "display.card_again",
                     "display: the graphics card is there again; the exhibit must be restarted "
-                    "to take it up");
+                    "to use it");
     }
     if (seen_.state == CardState::Elsewhere) {
         return fail(ErrorKind::DeviceLost, "display.projector_elsewhere", "display: {}",

@@ -26,15 +26,15 @@ DeviceState state_of(const ButtonLines& lines) {
 DeviceState state_of(const Buttons& buttons, const DeviceState& otherwise) {
     if (buttons.any_stuck() && buttons.any_chatters()) {
         return impaired("panel.stuck_and_chatters",
-                        "a button is stuck, another chatters, and both are ignored; free or exchange them");
+                        "a button is stuck, another chatters, and both are ignored; free or replace them");
     }
     if (buttons.any_stuck()) {
-        return impaired("panel.stuck", "a button is stuck and is ignored; free it or exchange it");
+        return impaired("panel.stuck", "a button is stuck and is ignored; free it or replace it");
     }
     return buttons.any_chatters()
                ? impaired("panel.chatters",
                           "a button chatters and is ignored until it is quiet; look at its wires, or "
-                          "exchange it")
+                          "replace it")
                : otherwise;
 }
 

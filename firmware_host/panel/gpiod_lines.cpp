@@ -34,7 +34,7 @@ std::string reason(int error) {
     case ENXIO:
         return "it is not there; is it plugged in, and its driver loaded?";
     case EBUSY:
-        return "another program holds it";
+        return "another program holds it; end that program";
     default:
         return std::strerror(error);
     }

@@ -152,14 +152,16 @@ Result<std::unique_ptr<ButtonLines>> open_key_lines(const KeyRequest& request) {
     KeyBits keys{};
     if (::ioctl(file.get(), EVIOCGBIT(EV_KEY, keys.size()), keys.data()) < 0) {
         return fail(ErrorKind::DeviceLost, "panel.no_event_device",
-                    "keyboard {}: it is not an event device; see {}", request.device, folder);
+                    "keyboard {}: it is not an event device; name one of those in {}", request.device,
+                    folder);
     }
     KeyLevels there(request.codes);
     there.set(keys); // the same bits, but for existing keys
     for (std::size_t k = 0; k < request.codes.size(); ++k) {
         if (!there.down(k)) {
-            return fail(ErrorKind::DeviceLost, "panel.no_key", "keyboard {}: it has no key {}",
-                        request.device, libevdev_event_code_get_name(EV_KEY, request.codes[k]));
+            return fail(ErrorKind::DeviceLost, "panel.no_key",
+                        "keyboard {}: it has no key {}; evtest shows the keys that it has", request.device,
+                        libevdev_event_code_get_name(EV_KEY, request.codes[k]));
         }
     }
     if (::ioctl(file.get(), EVIOCGRAB, 1) < 0) { // grabs the keyboard until the file is closed

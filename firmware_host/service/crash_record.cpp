@@ -33,7 +33,7 @@ constexpr std::array<CrashSignal, 5> crash_signals{{
     {SIGBUS, "SIGBUS", "memory or a file's page that cannot be read"},
     {SIGILL, "SIGILL", "an instruction that this processor does not have"},
     {SIGFPE, "SIGFPE", "arithmetic that cannot be done"},
-    {SIGABRT, "SIGABRT", "it gave up, or was told to"},
+    {SIGABRT, "SIGABRT", "the program ended itself after an error, or was told to"},
 }};
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -91,7 +91,7 @@ TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
                      "    def handle_data(self, data):\n"
                      "        if any(c in data for c in '<&') and '{' not in data: print(data.strip())\n"
                      "Look().feed(open('report.html').read())\n"),
-              "Coll & <i>\nColl & <i>\nPassed over, without an artifact.toml: old <stuff>\n"
+              "Coll & <i>\nColl & <i>\nSkipped folders without an artifact.toml: old <stuff>\n"
               "x: <script>alert(1)</script>, \"no\"\nhref ./a%2C%20%22b%22%0Ac.html\nG&B\n=Jug & <b>\n")
         << "what failed comes first";
 }

@@ -337,7 +337,7 @@ TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
     EXPECT_EQ(live.procedure.wanted(), 5U);
     live.press_next();
     EXPECT_EQ(live.procedure.word(), AutoPrompt::TooFew);
-    EXPECT_EQ(programs::table_words(live.procedure).lines.back(), "5 rests are needed at least.")
+    EXPECT_EQ(programs::table_words(live.procedure).lines.back(), "At least 5 rests are needed.")
         << "no more than are wanted";
     live.press_back();
     EXPECT_EQ(live.procedure.word(), AutoPrompt::Dropped);

@@ -35,7 +35,7 @@ TEST(CountsTable, SumsDaysHoursAndNames) {
     EXPECT_EQ(summary.artifacts[0].name, "Cup");
     EXPECT_DOUBLE_EQ(minutes_of(summary.artifacts[0].tally), 24.0);
     const std::string text = counts_text({{day_of(0, 4, 10), day_of(5, 6, 14, "Cup")}, {}, {}});
-    EXPECT_NE(text.find("10 visits, 15 minutes together, 1.5 minutes each"), std::string::npos) << text;
+    EXPECT_NE(text.find("10 visits, 15 minutes in all, 1.5 minutes each"), std::string::npos) << text;
     EXPECT_NE(text.find("between 14:00 and 15:00, and on a Saturday"), std::string::npos) << text;
 }
 

@@ -31,7 +31,8 @@ constexpr const char* status = R"({
  "tracker_counts": {"frames": 2160000, "lost": 3, "broken": 0, "connections": 1}, "device_errors": 0,
  "uptime_s": 36000, "resident_mib": 197})";
 constexpr const char* watchdog = R"({
- "mode": "normal", "trouble": null, "step": null, "reboots_today": 0, "notes": ["the computer has 88 degrees Celsius; give it air"],
+ "mode": "normal", "trouble": null, "step": null, "reboots_today": 0,
+ "notes": ["the computer is at 88 degrees Celsius, which is too hot; let air reach it"],
  "faults": [{"at": "2026-05-01T09:30:00Z", "awake_s": 5, "sentence": "the tracker is plugged in but sends nothing",
              "done": "the tracker's USB port is switched off and on", "helped": true}]})";
 

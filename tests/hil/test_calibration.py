@@ -42,7 +42,7 @@ class Calibration(HilTest):
         self.press(NEXT)
         crosses, more = self.crosses()
         self.touch(crosses, 0)
-        self.hears("Next brings two more crosses.")  # too few for pixels of this size
+        self.hears("Next shows two more crosses.")  # too few for pixels of this size
         self.press(NEXT)
         self.touch(more[:2], len(crosses))
         self.hears("Next keeps it.")

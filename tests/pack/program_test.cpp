@@ -46,7 +46,7 @@ protected:
 TEST_F(Program, verify_tells_sound_packs_from_others) {
     const Outcome good = pack_program("verify good.fspack");
     EXPECT_EQ(good.status, 0);
-    EXPECT_EQ(good.out.find("good.fspack: sound, unsigned"), 0U) << good.out;
+    EXPECT_EQ(good.out.find("good.fspack: intact, unsigned"), 0U) << good.out;
     EXPECT_EQ(good.error, "");
     const Outcome both = pack_program("verify bad.fspack good.fspack");
     EXPECT_EQ(both.status, 1);

@@ -168,7 +168,7 @@ TEST(Sections, have_few_plain_names_and_bounded_depth) {
             m["sections"]["s" + std::to_string(k)] = {{"parts", Json::array()}, {"data", Json::object()}};
         }
     });
-    expect_refused("bytes of data together", [](Json& m) {
+    expect_refused("bytes of data in all", [](Json& m) {
         m["sections"]["sounds"]["data"] = {{"large", std::string(1 << 20, 'x')}};
     });
     expect_refused("more than 524288 values", [](Json& m) {

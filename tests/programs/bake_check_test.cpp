@@ -123,7 +123,7 @@ TEST_F(BakeCheck, AFolderMakesATableWithAlignedColumnsAndAFaultIsALineOfItsScan)
     EXPECT_NE(lines[4].find("  cannot be baked: scans/jug/artifact.toml:3: siez"), std::string::npos)
         << lines[4];
     EXPECT_EQ(lines[5], "4 scans: 2 can be baked, 2 cannot");
-    EXPECT_EQ(lines[6], "Passed over, without an artifact.toml: notes");
+    EXPECT_EQ(lines[6], "Skipped folders without an artifact.toml: notes");
 }
 
 TEST_F(BakeCheck, TheStatusIsZeroOneOrTwo) {

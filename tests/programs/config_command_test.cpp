@@ -141,7 +141,7 @@ TEST_F(ConfigCommand, JudgesAGoodSetUpAsGood) {
     const std::string said = page("");
     expect_words(said, {"seen whole from all around while the prop is within 44 x 15 cm",
                         "10 mm high, 24 pixels", "a capital is 22 minutes of arc high",
-                        "awake all day, every day", "To look into\n  Nothing.\n"});
+                        "awake all day, every day", "To check\n  Nothing.\n"});
 }
 
 TEST_F(ConfigCommand, JudgesLettersThatAreTooFewPixelsOrTooSmall) {

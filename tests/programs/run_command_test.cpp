@@ -194,9 +194,10 @@ TEST_F(RunCommand, SaysThatALanguageIsMissingAndReportsTheOneShown) {
     write_settings("replay", "language = \"cy\"\n");
     EXPECT_EQ(run("--seconds 1").at("language"), "en");
     const Bytes errors = *read_file(folder / "err.txt");
-    EXPECT_EQ(as_text(errors).rfind(
-                  "frustumscreen: no artifact has captions in 'cy'; en is shown; there are en\n", 0),
-              0U)
+    EXPECT_EQ(
+        as_text(errors).rfind(
+            "frustumscreen: no artifact has captions in 'cy', so en is shown; the captions are in en\n", 0),
+        0U)
         << as_text(errors);
 }
 

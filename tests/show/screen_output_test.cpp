@@ -169,7 +169,7 @@ TEST_F(Screen, SaysOfItselfWhatAProjectorSays) {
               "the graphics card is gone; the exhibit goes on without it");
     EXPECT_EQ(says("the projector at DP-1 names no mode; set display.mode and display.force"),
               "the screen at DP-1 names no mode; try another cable");
-    EXPECT_EQ(says("a projector is at another graphics card; the exhibit must be restarted to take it up"),
+    EXPECT_EQ(says("a projector is at another graphics card; the exhibit must be restarted to use it"),
               "a screen is at another graphics card; it is opened again while nobody uses the exhibit");
 }
 

@@ -108,9 +108,8 @@ TEST_F(ScreenshotTest, NobodyWhoAsksGetsAnOldPictureOfAnExhibitThatHung) {
     screenshot.serve(*display); // without a request
     const Result<const image::Image8*> none = screenshot.take(std::stop_token());
     ASSERT_FALSE(none);
-    EXPECT_EQ(
-        none.error().message,
-        "the exhibit hands out no picture; it hangs, is ending, or shows the staff what its camera sees");
+    EXPECT_EQ(none.error().message,
+              "the exhibit gives no picture; it hangs, is ending, or shows the staff what its camera sees");
     screenshot.serve(*display); // the request was withdrawn
     draw(false, true, false);
     const Result<image::Image8> later = asked();

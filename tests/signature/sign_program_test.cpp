@@ -184,7 +184,7 @@ TEST_F(SignProgram, VerifySaysWhoSigned) {
     EXPECT_NE(unchecked.out.find("serial 3, not checked"), std::string::npos) << unchecked.out;
     const Outcome checked = pack("verify vase.fspack --key stranger.pub --key house.pub");
     expect_done(checked);
-    EXPECT_NE(checked.out.find("sound, signed by house, serial 3"), std::string::npos) << checked.out;
+    EXPECT_NE(checked.out.find("intact, signed by house, serial 3"), std::string::npos) << checked.out;
     const nlohmann::json json = verified("vase.fspack --key house.pub")[0];
     EXPECT_EQ(json["sound"], true);
     EXPECT_EQ(json["signed"], true);

@@ -142,8 +142,8 @@ class Text(Status):
                          "set 7, 1 pack: Amphora; the newest is set 8, bad: dog.fspack is damaged")
         self.assertEqual(self.line(text, "left out"), "cat.fspack: it is damaged")
         self.assertRegex(self.line(text, "starts"),
-                         r"^it runs for 10 h 0 min; it has ended 2 times, last 4 min ago: it no longer fed systemd's "
-                         r"watchdog \(killed KILL\)$")
+                         r"^it runs for 10 h 0 min; it has ended 2 times, last 4 min ago: it stopped reporting "
+                         r"to systemd \(killed KILL\)$")
         self.assertIn("1 restart of the machine today", self.line(text, "watchdog"))
         self.assertEqual(self.line(text, "last faults"),
                          "2026-05-01T08:30:00Z no live picture: the exhibit is started again, which did not help (killed KILL)")
@@ -247,7 +247,7 @@ class Text(Status):
     def test_a_device_that_is_there_and_impaired_is_named(self):
         for changes, words, short_name in (
                 ({"devices": devices(panel=device(True, "panel.stuck", True)),
-                  "panel": "a button is stuck and is ignored; free it or exchange it"},
+                  "panel": "a button is stuck and is ignored; free it or replace it"},
                  "a button is stuck and is ignored", "panel.stuck"),
                 ({"drift": "the picture lies 5.0 mm beside where it was calibrated; hold both", "drifted": True},
                  "the picture lies 5.0 mm beside where it was calibrated", "drift.moved")):
@@ -285,9 +285,9 @@ class Text(Status):
         self.assertNotIn("\nvisitors ", self.text(0))
         visits = {"today": 34, "since_start": 40, "today_s": 7080.0, "since_start_s": 8000.0, "trouble": ""}
         self.write("status.json", exhibit(visits=visits))
-        self.assertEqual(self.line(self.text(0), "visitors"), "today 34 visits, 118 minutes together")
+        self.assertEqual(self.line(self.text(0), "visitors"), "today 34 visits, 118 minutes in all")
         self.write("status.json", exhibit(visits=visits | {"trouble": "the disk is full"}))
-        self.assertEqual(self.line(self.text(0), "visitors"), "today 34 visits, 118 minutes together; the disk is full")
+        self.assertEqual(self.line(self.text(0), "visitors"), "today 34 visits, 118 minutes in all; the disk is full")
 
     def test_wrong_use(self):
         for options in (("--json", "--prometheus"), ("--no-such-option",), ("word",)):

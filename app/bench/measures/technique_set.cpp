@@ -283,7 +283,8 @@ Result<void> TechniqueSet::add_finest_relief(const pack::Pack& pack, const Pictu
         max_texels = std::max(max_texels, each.texels);
     }
     if (max_texels == 0) {
-        return fail(ErrorKind::BadInput, "bench.no_relief", "the pack has no relief");
+        return fail(ErrorKind::BadInput, "bench.no_relief",
+                    "the pack has no relief; bake it without --no-relief");
     }
     return add_pack_reliefs(pack, TechniqueKind::PackRelief, options,
                             [max_texels](std::uint32_t texels) { return texels == max_texels; });

@@ -229,7 +229,8 @@ Result<SecretKey> parse_secret_key(std::string_view text, std::optional<std::str
     const bool encrypted = record.kdf == scrypt;
     if (encrypted) {
         if (!password) {
-            return bad_input("key.no_password", "the key has a password, and none was given");
+            return bad_input("key.no_password", "the key has a password, and none was given; type it, or "
+                                                "give it in one line on standard input");
         }
         TRY_VOID(apply_password(hidden, *password, record));
     }

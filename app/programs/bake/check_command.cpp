@@ -112,7 +112,7 @@ void print(const Listed& listed, bool as_json) {
     }
     fmt::print("{}", check_table(listed.scans));
     if (!listed.passed_over.empty()) {
-        fmt::print("Passed over, without an artifact.toml: {}\n", fmt::join(listed.passed_over, ", "));
+        fmt::print("Skipped folders without an artifact.toml: {}\n", fmt::join(listed.passed_over, ", "));
     }
 }
 

@@ -62,7 +62,7 @@ CheckedScan check_scan(BakeArguments arguments) {
         }
     } catch (const std::bad_alloc&) {
         checked.fault = Error{ErrorKind::BadInput, "check.no_memory",
-                              arguments.input.string() + ": not enough memory; simplify it first"};
+                              arguments.input.string() + ": not enough memory; simplify the scan first"};
     }
     return checked;
 }

@@ -75,7 +75,7 @@ Result<bake::SourceMesh> load_scan(const BakeRequest& request,
              "--unlit it is lit as in a museum"});
     }
     bake::reduce_scan(mesh);
-    progress("a last look at the scan", 0.9);
+    progress("checking the scan", 0.9);
     bake::Scraps scraps = bake::find_scraps(mesh);
     if (request.clean && scraps.triangles > 0) {
         mesh.notes.push_back(

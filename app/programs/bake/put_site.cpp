@@ -84,10 +84,10 @@ std::vector<std::string> report_of(const pack::PackWorld& world, const std::vect
     }
     return {fmt::format("{} regions of {} to {} triangles; one fills the prop at a time", world.cells.size(),
                         fewest, most),
-            fmt::format("finest levels: {} triangles together, off by up to {:.3f} mm on average", finest,
+            fmt::format("finest levels: {} triangles in all, mean error of a region up to {:.3f} mm", finest,
                         finest_mm),
-            fmt::format("coarsest levels: {} triangles together, off by up to {:.3f} mm on average", coarsest,
-                        coarsest_mm)};
+            fmt::format("coarsest levels: {} triangles in all, mean error of a region up to {:.3f} mm",
+                        coarsest, coarsest_mm)};
 }
 
 } // namespace

@@ -139,7 +139,7 @@ std::string report_page(std::span<const BatchRow> rows, std::string_view title, 
     }
     const std::string over = passed_over.empty()
                                  ? std::string()
-                                 : fmt::format("<p>Passed over, without an artifact.toml: {}</p>\n",
+                                 : fmt::format("<p>Skipped folders without an artifact.toml: {}</p>\n",
                                                xml_text(fmt::format("{}", fmt::join(passed_over, ", "))));
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

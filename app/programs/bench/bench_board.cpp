@@ -56,8 +56,7 @@ void add_board_options(CommandLine& command, BenchArtifact& artifact) {
 
 Result<void> check_board_options(const BenchArtifact& artifact) {
     if (artifact.pack.empty() != artifact.mesh.empty()) {
-        return bad_input("bench.pack_without_mesh",
-                         "--pack and --mesh are given together, or neither of them");
+        return bad_input("bench.pack_without_mesh", "give --pack and --mesh together, or neither of them");
     }
     return {};
 }

@@ -41,7 +41,8 @@ constexpr std::array<WordMessage<calibration::AutoPrompt>, 15> auto_messages{{
      {"calibration.leans_little",
       "It lies neither flat nor on the wedge. Lay it flat, or lean it by 15 to 30 degrees."}},
     {calibration::AutoPrompt::WrongHeight,
-     {"calibration.wrong_height", "It lies neither on the table nor on {block_mm:.0f} mm of board."}},
+     {"calibration.wrong_height",
+      "It lies neither on the table nor on {block_mm:.0f} mm of board. Lay it on one of them."}},
     {calibration::AutoPrompt::Moved,
      {"calibration.board_moved",
       "It moved, or the camera did. Leave both alone; the stripes come again by themselves."}},
@@ -53,7 +54,7 @@ constexpr std::array<WordMessage<calibration::AutoPrompt>, 15> auto_messages{{
                                 "settings, or close its lens a little."}},
     {calibration::AutoPrompt::Taken, {"", "Good: {tags} of {all_tags} tags."}},
     {calibration::AutoPrompt::Dropped, {"calibration.dropped", "The last rest is dropped."}},
-    {calibration::AutoPrompt::TooFew, {"calibration.too_few", "{least_rests} rests are needed at least."}},
+    {calibration::AutoPrompt::TooFew, {"calibration.too_few", "At least {least_rests} rests are needed."}},
 }};
 constexpr std::array<WordMessage<calibration::Posture>, 3> posture_messages{{
     {calibration::Posture::Flat,
@@ -63,8 +64,8 @@ constexpr std::array<WordMessage<calibration::Posture>, 3> posture_messages{{
      {"calibration.lay_on_boards",
       "Lay the board flat on {block_mm:.0f} mm of board, the prop in the ring. Take your hands away."}},
     {calibration::Posture::Leaning,
-     {"calibration.lean",
-      "Lean the board on the wedge by 15 to 30 degrees, the prop about in the ring. Take your hands away."}},
+     {"calibration.lean", "Lean the board on the wedge by 15 to 30 degrees, the prop roughly in the ring. "
+                          "Take your hands away."}},
 }};
 
 std::string filled(std::string_view english, const calibration::AutoProcedure& procedure) {

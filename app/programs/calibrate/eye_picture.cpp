@@ -33,7 +33,8 @@ constexpr std::array<WordMessage<calibration::EyePrompt>, 9> eye_messages{{
     {calibration::EyePrompt::HeadMoved,
      {"calibration.eyes.head_moved", "Your head moved. Keep it still; the second starts again."}},
     {calibration::EyePrompt::SameHead,
-     {"calibration.eyes.same_head", "Your head is held as before. Hold it as shown, then press Next again."}},
+     {"calibration.eyes.same_head",
+      "Your head is held as in the last sighting. Hold it as shown, then press Next again."}},
     {calibration::EyePrompt::Taken, {"", "Good."}},
 }};
 constexpr std::array<WordMessage<calibration::HeadPosture>, 4> posture_messages{{
@@ -90,7 +91,7 @@ Message choice_of(const calibration::EyeProcedure& procedure) {
                 "Next keeps it. Back does the sighting again that lies farthest off."};
     case calibration::Verdict::Repeat:
         return procedure.asks_for_more()
-                   ? Message{"calibration.more_rests", "Next brings more sightings."}
+                   ? Message{"calibration.more_rests", "Next adds more sightings."}
                    : Message{"calibration.repeat", "Next does the doubtful sightings again."};
     case calibration::Verdict::Refused:
         break;
@@ -118,7 +119,8 @@ TableWords words_of_stage(const calibration::EyeProcedure& procedure) {
     case Stage::Begin:
         return words_of_begin(procedure);
     case Stage::Rest:
-        return {"calibration.eyes.rest", {"Let the prop lie", "Its place is taken: one second of rest."}};
+        return {"calibration.eyes.rest",
+                {"Let the prop lie", "Its place is measured. Leave it still for one second."}};
     case Stage::Shut:
     case Stage::Place:
     case Stage::HoldStill:

@@ -287,7 +287,7 @@ void add_table_command(CommandLine& app, CalibrateRequest& request, std::functio
     command.add_flag("--json", request.json, "print the crosses as JSON and end");
     command.callback([&request, &chosen, anew] {
         if (anew.count() > 0) {
-            fmt::print(stderr, "--anew is now --from-start, and does the same\n");
+            fmt::print(stderr, "--anew is an older name of --from-start, and does the same\n");
         }
         chosen = [&request] { return end_with(calibrate_table(request)); };
     });

@@ -106,7 +106,7 @@ Message choice_of(const calibration::TouchProcedure& procedure) {
                              "Next keeps it. Back does the touch again that lies farthest off."};
     case calibration::Verdict::Repeat:
         return procedure.asks_for_more()
-                   ? Message{"calibration.more", "Next brings two more crosses."}
+                   ? Message{"calibration.more", "Next shows two more crosses."}
                    : Message{"calibration.repeat", "Next does the doubtful touches again."};
     case calibration::Verdict::Refused:
         break;

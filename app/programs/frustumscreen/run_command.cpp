@@ -70,8 +70,8 @@ Result<RunMode> load(RunRequest& request, const service::Journal& journal) {
     }
     if (const std::filesystem::path folder = request.status_file.parent_path();
         !folder.empty() && !std::filesystem::is_directory(folder)) {
-        return bad_input("run.no_status_folder", "{}: the folder of --status-file is not there",
-                         folder.string());
+        return bad_input("run.no_status_folder",
+                         "{}: the folder of --status-file is not there; make it first", folder.string());
     }
     return mode;
 }

@@ -136,9 +136,10 @@ int run(int argc, char** argv) {
         .within(0.0, 60.0);
     app.add_option("--stick-report", arguments.stick_report,
                    "file with the outcome of frustumscreen report; it is reported, then removed");
-    app.add_flag("--confirmed", arguments.confirmed,
-                 "the staff have confirmed the copy for which the stick waited, and it was written: another "
-                 "import of the same stick");
+    app.add_flag(
+        "--confirmed", arguments.confirmed,
+        "import a stick once more, after the staff have confirmed the copy for which it waited and the "
+        "copy was written");
     const CommandOption label =
         app.add_option("--label", arguments.label, "the stick's name, for the report");
     std::string label_folder;

@@ -39,7 +39,7 @@ std::string line_of(const library::ImportReport& report) {
         std::any_of(report.packs.begin(), report.packs.end(), [](const library::ImportedPack& pack) {
             return pack.outcome == library::ImportOutcome::Taken;
         });
-    return has_taken ? "taken, and something is wrong" : "nothing was taken";
+    return has_taken ? "packs were taken, but something is wrong" : "nothing was taken";
 }
 
 } // namespace

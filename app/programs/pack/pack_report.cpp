@@ -256,7 +256,7 @@ std::string sections_text(const pack::Pack& pack) {
         if (!is_passed_over(section)) {
             continue;
         }
-        text += fmt::format("  section {}: passed over by this version, {} parts\n", section.name,
+        text += fmt::format("  section {}: unknown to this version and ignored, {} parts\n", section.name,
                             section.parts.size());
     }
     return text;

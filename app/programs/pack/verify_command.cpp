@@ -121,7 +121,7 @@ int verify_packs(const VerifyRequest& request) {
         }
         report.push_back(report_of(file, *sound));
         if (!request.json) {
-            fmt::print("{}: sound, {}, {} levels, \"{}\"\n", file, signature_words(*sound),
+            fmt::print("{}: intact, {}, {} levels, \"{}\"\n", file, signature_words(*sound),
                        sound->pack->levels.size(), sound->pack->title);
         }
     }

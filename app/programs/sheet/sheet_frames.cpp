@@ -128,15 +128,19 @@ Result<std::vector<FrameRecord>> parse_frames_csv(std::string_view text, const s
         if (!columns) {
             columns.emplace(fields);
             if (!columns->has("t_us") || !columns->has("ms")) {
-                return bad_input("sheet.no_time_columns", "{}:{}: the header lacks t_us or ms", name,
-                                 line_number);
+                return bad_input(
+                    "sheet.no_time_columns",
+                    "{}:{}: the header lacks t_us or ms; take frames.csv as run or render wrote it", name,
+                    line_number);
             }
             continue;
         }
         const std::optional<double> t_us = number(columns->of(fields, "t_us"));
         const std::optional<double> ms = number(columns->of(fields, "ms"));
         if (!t_us || !ms || std::abs(*t_us) > 1e15) {
-            return bad_input("sheet.times", "{}:{}: t_us and ms must be numbers", name, line_number);
+            return bad_input("sheet.times",
+                             "{}:{}: t_us and ms must be numbers; take frames.csv as run or render wrote it",
+                             name, line_number);
         }
         records.push_back({.t_us = static_cast<std::int64_t>(*t_us),
                            .ms = *ms,
@@ -218,7 +222,8 @@ Result<image::Image8> read_picture(const SheetFrame& frame, const geometry::Pinh
     if (std::abs(picture.width * projector.height - picture.height * projector.width) >
         std::max(projector.width, projector.height)) {
         return bad_input("sheet.frame_shape",
-                         "{}: {} x {} pixels do not have the shape of the configured projector's {} x {}",
+                         "{}: {} x {} pixels do not have the shape of the configured projector's {} x {}; "
+                         "name the settings with which they were drawn",
                          frame.picture.string(), picture.width, picture.height, projector.width,
                          projector.height);
     }

@@ -222,7 +222,8 @@ std::vector<std::string> notes_of(const watch::Outcome& outcome) {
     }
     if (outcome.hottest_c && *outcome.hottest_c > hot_c) {
         notes.push_back(
-            fmt::format("the computer has {:.0f} degrees Celsius; give it air", *outcome.hottest_c));
+            fmt::format("the computer is at {:.0f} degrees Celsius, which is too hot; let air reach it",
+                        *outcome.hottest_c));
     }
     if (!outcome.clock_plausible) {
         notes.emplace_back("the clock was never set; the timetable is not kept until it is");

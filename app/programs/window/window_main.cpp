@@ -39,7 +39,7 @@ struct Request {
 std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     CommandLine app("Runs the exhibit in a window: the projector's picture on the left, the visitor's view "
                     "on the right. Drag: slide the prop; wheel or right drag: turn it; middle drag: move the "
-                    "eye; 1, 2, 3: the buttons; H: help; Esc: end.",
+                    "eye; 1 to 7: the buttons; H: help; Esc: end.",
                     "frustumscreen-window");
     app.set_version_flag("--version", name_and_version("frustumscreen-window"));
     app.add_option("--config", request.config, "the kiosk's settings, TOML").required();

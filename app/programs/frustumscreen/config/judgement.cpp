@@ -287,8 +287,8 @@ std::string judgement_page(const settings::Settings& settings, std::chrono::sys_
     Page page;
     page.text = "The visitors' view\n";
     if (const std::size_t unread = settings.exhibit.packs.size() - packs.size(); unread > 0) {
-        page.text += fmt::format("  Of {} packs {} cannot be read, and are not judged.\n",
-                                 settings.exhibit.packs.size(), unread);
+        page.text += fmt::format("  {} of {} packs cannot be read, and are not judged.\n", unread,
+                                 settings.exhibit.packs.size());
     }
     const settings::Rectangle zone = judge_zone(settings, packs, page);
     judge_focus(settings, page);
@@ -298,7 +298,7 @@ std::string judgement_page(const settings::Settings& settings, std::chrono::sys_
     judge_words(settings, packs, page);
     judge_language(settings, packs, page);
     page.text += week_page(settings.hours, now, local_offset_at);
-    page.text += "To look into\n";
+    page.text += "To check\n";
     for (const std::string& fault : page.faults) {
         page.text += "  " + fault + "\n";
     }

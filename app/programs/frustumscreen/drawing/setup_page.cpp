@@ -260,8 +260,8 @@ std::optional<settings::Rectangle> evenly_lit(const settings::Settings& settings
 /// A prop in the hand has no preferred turn and no face that is always lit.
 std::string describe_hand_zone(const settings::LitZone& zone) {
     return zone.any_eye.empty()
-               ? std::string("The prop inside the picture\n  Nowhere at every turn: hang the projector "
-                             "higher, or take a smaller prop.\n")
+               ? std::string("The prop inside the picture\n  There is no place where it stays inside at "
+                             "every turn: hang the projector higher, or take a smaller prop.\n")
                : fmt::format("The prop inside the picture\n  At every turn while its middle is within {},\n  "
                              "the largest rectangle in a zone of {:.3f} m2.\n",
                              words_of(zone.any_eye_rectangle), settings::area_of(zone.any_eye));
@@ -271,8 +271,7 @@ std::string describe_table_zone(const settings::Settings& settings, const settin
     std::string text = "The prop lit at every turn, by the place of its axis\n";
     if (zone.any_eye.empty()) {
         text += "  Nowhere for eyes all around: hang the projector higher and more over the table, or take a "
-                "flatter "
-                "prop.\n";
+                "flatter prop.\n";
     } else {
         const settings::Rectangle& inside = zone.any_eye_rectangle;
         text += fmt::format("  For eyes all around: {}, the largest rectangle in a zone of {:.3f} m2.\n",

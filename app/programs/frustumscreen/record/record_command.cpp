@@ -149,8 +149,9 @@ Result<void> record(const Request& request, show::Inputs& inputs) {
     scene::DevicePlan devices;
     devices.tracker = settings->tracker.kind;
     if (devices.tracker == settings::TrackerKind::None) {
-        return fail(ErrorKind::BadConfiguration, "record.no_tracker",
-                    "tracker.kind is \"none\"; there is nothing to record");
+        return fail(
+            ErrorKind::BadConfiguration, "record.no_tracker",
+            "tracker.kind is \"none\", so there is nothing to record; name a tracker in the settings");
     }
     const MonotonicTime start = monotonic_now();
     std::unique_ptr<tracker::PacketRecorder> recorder;
