@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing of the Debian 12 packages that a command needs, and says which. ./run and ./test call it; with
-# everything there it takes a fraction of a second; usage below.
+# Installs the missing Debian 12 packages of those that a command needs, and names them. ./run and ./test call it; if none is
+# missing it takes a fraction of a second; usage below.
 set -euo pipefail
 
 usage="usage: ./setup.sh [window|kiosk|tests|tidy|coverage|fuzz|hil|bundle|packages|image]...
@@ -52,18 +52,18 @@ for part; do
                 zbar-tools                        # reads the QR code of the staff's picture
                 chromium                          # shows the preview's page; 120 MB to fetch, 400 on the disk
                 lintian                           # looks at the Debian packages
-                squashfs-tools cpio zstd fdisk dosfstools mtools       # a made-up image, to be taken apart
-                cryptsetup-bin e2fsprogs                               # a made-up disk after a power cut
-                python3-jsonschema python3-license-expression          # read its bill of materials
-                shellcheck clang-format pyflakes3 # how it is written
+                squashfs-tools cpio zstd fdisk dosfstools mtools       # make a small image for tests, and unpack it
+                cryptsetup-bin e2fsprogs                               # make a small disk as a power cut leaves it
+                python3-jsonschema python3-license-expression          # read the image's bill of materials
+                shellcheck clang-format pyflakes3                      # check the style of the code
             )
             ;;
         image)
             packages+=(
-                mmdebstrap uidmap kmod systemd uuid-runtime python3                  # Debian's packages, the root
-                squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # its image, the kernel's
+                mmdebstrap uidmap kmod systemd uuid-runtime python3                  # the root, from Debian's packages
+                squashfs-tools cryptsetup-bin cpio zstd binutils sbsigntool faketime # the image of the root, the kernel image
                 fdisk dosfstools mtools e2fsprogs                                    # the disk
-                python3-jsonschema python3-license-expression                        # read its bill of materials
+                python3-jsonschema python3-license-expression                        # read the bill of materials
                 rauc openssl                                                         # updates
             )
             ;;
@@ -71,7 +71,7 @@ for part; do
         coverage) packages+=(gcovr) ;;
         fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14 libgtest-dev) ;;
         bundle) packages+=(rauc openssl squashfs-tools) ;; # image_build/bundle
-        packages) packages+=(dpkg-dev file python3) ;; # file: CPack finds programs by it; python3: pages of the manual
+        packages) packages+=(dpkg-dev file python3) ;; # file: CPack recognizes programs with it; python3: manual pages
         hil)
             packages+=(
                 python3 qemu-system-x86 ovmf mmdebstrap squashfs-tools busybox-static
@@ -114,7 +114,8 @@ if ((EUID != 0)); then
     fi
     as_root=(sudo)
 fi
-# Two at a time would find APT's lists locked. A package that another run has installed meanwhile is no longer missing.
+# Only one run installs at a time, because a second one would find APT's lists locked. After the wait, the list of missing packages is
+# made again: the other run may have installed some.
 exec 9<"${BASH_SOURCE[0]}"
 flock 9
 find_missing || exit 0

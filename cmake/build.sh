@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Configures a preset where needed, and builds it or some of its targets; usage below. On a terminal ninja says how far it is;
-# elsewhere one line does every 20 s, and the whole log only if something fails.
+# Configures a preset where needed, and builds it or some of its targets; usage below. On a terminal ninja shows its progress;
+# elsewhere a line every 20 s does, and the whole log is printed only if something fails.
 #
-# A new build folder leaves out a part that is not wanted, and needs none of its packages. A folder that has the part keeps
-# it, and one that lacks a wanted part gets it; neither builds anything twice.
+# In a new build folder, a part named by --without is left out, and its packages are not needed. A folder that has such a part keeps
+# it, and a folder that lacks a wanted part gets it; neither builds anything twice.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 presets=(release debug asan tsan fuzz coverage odr)
@@ -41,7 +41,7 @@ fi
 folder=build/$preset
 log=build/$preset.log
 mkdir -p build
-# Ends with the process that it was started from.
+# Ends when the process that started it has ended.
 say_progress() {
     local step
     while sleep 20 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
@@ -66,7 +66,7 @@ timed="$PWD/cmake/timed"
 export CMAKE_{C,CXX}_COMPILER_LAUNCHER="$timed;compile${launcher:+;$launcher}" # for a new build folder
 export CMAKE_{C,CXX}_LINKER_LAUNCHER="$timed;link"
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-export CCACHE_INODECACHE=1 # else every hit reads the precompiled headers, 110 MB, to hash them
+export CCACHE_INODECACHE=1 # otherwise every hit reads and hashes the precompiled headers, 110 MB
 
 options=()
 if [[ -z $launcher ]] && grep -qs '^CMAKE_CXX_COMPILER_LAUNCHER:.*ccache' "$folder/CMakeCache.txt"; then
@@ -82,7 +82,7 @@ done
 if ((${#options[@]} > 0)) || [[ CMakePresets.json -nt $folder/build.ninja ]]; then
     if ! quietly cmake --preset "$preset" "${options[@]}"; then
         if ((${#options[@]} > 0)); then
-            rm -f "$folder/CMakeCache.txt" # else the next command would ask for the same parts, wanted or not
+            rm -f "$folder/CMakeCache.txt" # otherwise the next command would keep these options
         fi
         echo "build.sh: './setup.sh window tests' installs the packages of all parts; for the preset fuzz, './setup.sh fuzz'" >&2
         exit 1

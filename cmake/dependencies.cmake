@@ -30,7 +30,7 @@ pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
 pkg_check_modules(FREETYPE REQUIRED IMPORTED_TARGET freetype2)
 pkg_check_modules(QRENCODE REQUIRED IMPORTED_TARGET libqrencode)
 pkg_check_modules(PANGOFT2 REQUIRED IMPORTED_TARGET pangoft2 fontconfig)
-# GLib asks for -pthread, with which the precompiled headers were not made; threads come from Threads::Threads.
+# GLib asks for -pthread, but the precompiled headers are compiled without it; threads come from Threads::Threads.
 pkg_check_modules(GLIB REQUIRED IMPORTED_TARGET glib-2.0)
 set_property(TARGET PkgConfig::PANGOFT2 PROPERTY INTERFACE_COMPILE_OPTIONS "")
 set_property(TARGET PkgConfig::GLIB PROPERTY INTERFACE_COMPILE_OPTIONS "")
@@ -56,7 +56,7 @@ endif()
 if(BUILD_TESTING)
     find_package(GTest REQUIRED)
     pkg_check_modules(HARFBUZZ REQUIRED IMPORTED_TARGET harfbuzz) # to compare Pango with
-    if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # which do not get along with it
+    if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # umockdev does not work with these sanitizers
         pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
     endif()
 else()

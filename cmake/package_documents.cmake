@@ -1,8 +1,8 @@
-# CPack runs this when all is installed into its staging folders, before it packs them: puts what Debian asks of every package
-# under /usr/share/doc, and pages of the manual made from --help.
+# CPack runs this script after it has installed into its staging folders and before it packs them. The script adds the files that Debian
+# requires of every package under /usr/share/doc, and manual pages made from --help.
 set(readable FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 set(debian ${CPACK_FRUSTUMSCREEN_SOURCE}/image_build/debian)
-string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC) # of SOURCE_DATE_EPOCH
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC) # SOURCE_DATE_EPOCH if that is set
 
 foreach(component ${CPACK_COMPONENTS_ALL})
     string(TOUPPER ${component} COMPONENT)

@@ -1,18 +1,18 @@
-# Debian packages, made by CPack of what cmake/install.cmake installs: a package for each component. `image_build/packages` builds
-# them. image_build/debian has what only packages have.
+# Debian packages: CPack makes one for each component that cmake/install.cmake installs. `image_build/packages` builds them.
+# image_build/debian has the files that only packages need.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME frustumscreen)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_SET_DESTDIR ON) # what is installed names places of the system: /usr/lib/systemd, /etc
+set(CPACK_SET_DESTDIR ON) # the install rules have absolute paths: /usr/lib/systemd, /etc
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_COMPONENTS_ALL base kiosk bake)
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS # whatever the builder's umask is
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS # independent of the builder's umask
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # the packages need no tests built
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # packages are made without building the tests
 
 set(debian ${CMAKE_SOURCE_DIR}/image_build/debian)
 set(FRUSTUMSCREEN_MAINTAINER "FrustumScreen maintainers <maintainers@frustumscreen.invalid>" CACHE STRING
@@ -24,10 +24,10 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON) # frustumscreen-base of the same version
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/package_documents.cmake)
-set(CPACK_FRUSTUMSCREEN_SOURCE ${CMAKE_SOURCE_DIR}) # for that script
+set(CPACK_FRUSTUMSCREEN_SOURCE ${CMAKE_SOURCE_DIR}) # for package_documents.cmake
 set(CPACK_FRUSTUMSCREEN_PROGRAMS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
 
-# frustumscreen_package(COMPONENT NAME SECTION DEPENDS "..." RECOMMENDS "..."): the libraries that it links come by themselves.
+# frustumscreen_package(COMPONENT NAME SECTION DEPENDS "..." RECOMMENDS "..."): dependencies on linked libraries are added automatically.
 macro(frustumscreen_package component name section)
     cmake_parse_arguments(PACKAGE "" "" "DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
     string(TOUPPER ${component} COMPONENT)

@@ -8,14 +8,14 @@ target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
 target_include_directories(frustumscreen_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_definitions(frustumscreen_options INTERFACE GLM_FORCE_RADIANS GLM_ENABLE_EXPERIMENTAL)
 set(warnings -Wall -Wextra -Wpedantic -Wconversion)
-if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # their own code makes GCC warn of what is not there
+if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN) # the sanitizers' own code causes false warnings
     list(APPEND warnings -Werror)
 endif()
 target_compile_options(frustumscreen_options INTERFACE ${warnings} -ffp-contract=off
-    -ffunction-sections -fdata-sections # the link leaves out what a program does not use, of JSON above all
-    -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=) # so that a program's bytes do not tell in which folder it was built
+    -ffunction-sections -fdata-sections # the link leaves out unused code, most of it of the JSON library
+    -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=) # so that a program's bytes do not depend on the build folder
 target_link_options(frustumscreen_options INTERFACE -Wl,--gc-sections)
-# For loops over pixels and triangles. GCC 12 ends with a fault of its own at -O3 under the sanitizers and under gcov.
+# For loops over pixels and triangles. GCC 12 itself crashes at -O3 with the sanitizers and with gcov.
 if(NOT FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_TSAN AND NOT CMAKE_CXX_FLAGS MATCHES "--coverage")
     set(FRUSTUMSCREEN_LOOPS -O3)
 endif()
@@ -32,23 +32,23 @@ if(FRUSTUMSCREEN_FUZZ)
     target_compile_options(frustumscreen_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# Tests run once or twice a build: what -O2 takes longer to compile, it does not win back.
+# Tests run once or twice for each build, so -O2 would cost more compile time than it saves run time.
 set(test_options $<$<CONFIG:RelWithDebInfo>:-O1>)
 set(rooms_alone_are_checked OFF)
 if(FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_FUZZ)
-    # The rooms are what is looked at. Checking the arithmetic of the tests and of the programs' options too takes twice the
-    # time to compile, or more.
+    # Only the rooms are compiled with the undefined-behaviour checks. With them, the tests and the programs' options take twice
+    # the time to compile, or more.
     set(rooms_alone_are_checked ON)
     set(test_options -O0 -fno-sanitize=undefined)
 endif()
-if(FRUSTUMSCREEN_UNITY) # GCC takes a fixture in the unnamed namespace of a test that another file includes for one in a header
+if(FRUSTUMSCREEN_UNITY) # GCC takes a fixture in the unnamed namespace of an included source for a type of a header, and warns
     list(APPEND test_options $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 include(cmake/precompiled.cmake)
 
-# Sets `sources` to files that include a dozen of a test's sources each: to read the precompiled headers takes longer than to compile
-# most sources. They name no folder of this machine, so that ccache finds them in another clone. Not for rooms: a program takes a room's
-# object files whole, and would need every shared library that one of the dozen calls.
+# Sets `sources` to files that include a dozen of a test's sources each, because reading the precompiled headers takes longer than
+# compiling most sources. The files contain no absolute path, so that ccache finds them in another clone. Not for rooms: a program links
+# whole object files of a room, and would need every shared library that one of the dozen sources calls.
 function(frustumscreen_together target)
     if(NOT FRUSTUMSCREEN_UNITY)
         set(sources ${ARGN} PARENT_SCOPE)
@@ -69,7 +69,7 @@ function(frustumscreen_together target)
     set(number 0)
     while(DEFINED includes_${number})
         set(file ${CMAKE_BINARY_DIR}/together/${target}_${number}.cpp)
-        file(CONFIGURE OUTPUT ${file} CONTENT "${includes_${number}}" @ONLY) # keeps its time where it is there
+        file(CONFIGURE OUTPUT ${file} CONTENT "${includes_${number}}" @ONLY) # an unchanged file keeps its modification time
         list(APPEND together ${file})
         math(EXPR number "${number} + 1")
     endwhile()
@@ -101,20 +101,20 @@ function(frustumscreen_program name)
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYER_FOLDERS "${name}=${CMAKE_CURRENT_SOURCE_DIR}")
 endfunction()
 
-# The tests of what reads bytes from outside or shares memory between threads: under the sanitizers they run for every change.
+# The tests of code that reads bytes from outside or shares memory between threads. They run under the sanitizers for every change.
 add_custom_target(outside)
-# Those of them that share memory between threads: under the thread sanitizer.
+# Of these, the tests of code that shares memory between threads. They run under the thread sanitizer.
 add_custom_target(threads)
 
 # A test's command begins with ${run_test} and the test's name.
 set(run_test ${CMAKE_SOURCE_DIR}/tests/house/run_test.sh)
 
-# mold links a test in a third of the time; what ships is linked by the system's own linker.
+# mold links a test in a third of the time; the programs are linked by the system's own linker.
 find_program(MOLD mold)
 set(test_linker $<$<BOOL:${MOLD}>:-fuse-ld=mold;-Wl,--no-fork>)
 
-# The folders that the tests look into. These paths are on no command line but this library's, so that ccache finds in one clone
-# what another compiled.
+# The folders that the tests read. Only this library has these paths on its command line, so that ccache finds the tests' objects from
+# another clone.
 if(BUILD_TESTING)
     add_library(test_folders STATIC ${CMAKE_SOURCE_DIR}/tests/folders.cpp)
     target_link_libraries(test_folders PRIVATE frustumscreen_options)
@@ -125,14 +125,14 @@ if(BUILD_TESTING)
         FRUSTUMSCREEN_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
 endif()
 
-# A GoogleTest program of one room; working directory is its own build folder.
-#   OUTSIDE, THREADS  it belongs to the above
-#   WAITS             it mostly waits, for a time of a device or for another program
-#   COST              about its seconds, of a long one: it begins early also where ctest has not yet seen how long each takes
-#   APART             sources whose unnamed namespace has a name of another source of the test
-#   COMPUTING         cases of a test with OUTSIDE or THREADS that compute for long on one thread, from what the test itself makes. They
-#                     look for wrong numbers and pictures, which no sanitizer sees, and take ten times as long under one; other cases run
-#                     the same code there. So with a sanitizer they are a test of their own without labels, NAME_computing, which
+# A GoogleTest program of one room; its working directory is its own build folder.
+#   OUTSIDE, THREADS  it belongs to the target of this name, above
+#   WAITS             it spends most of its time waiting for a device or another program
+#   COST              for a long test, its approximate seconds: it begins early even if ctest has no times of earlier runs
+#   APART             sources whose unnamed namespace has a name that another source of the test also has
+#   COMPUTING         cases of a test with OUTSIDE or THREADS that compute for long on one thread, from input that the test itself makes.
+#                     They check numbers and pictures, which a sanitizer does not, and take ten times as long under one; other cases run
+#                     the same code there. So under a sanitizer they are a separate test without labels, NAME_computing, which
 #                     `./test asan --all` and `./test tsan --all` run.
 function(frustumscreen_test name)
     cmake_parse_arguments(TEST "OUTSIDE;THREADS;WAITS" "COST" "SOURCES;APART;USES;LABELS;COMPUTING" ${ARGN})
@@ -159,7 +159,7 @@ function(frustumscreen_test name)
         set_tests_properties(${name}_computing PROPERTIES PROCESSORS 2)
     endif()
     add_test(NAME ${name} COMMAND ${run_test} ${name} $<TARGET_FILE:${name}> ${cases})
-    # Of the five slots that ./test has on two cores: a test that mostly waits takes one, and runs beside two that compute.
+    # ./test has five slots on two cores. A test that computes takes two slots, one that waits takes one: it runs beside two that compute.
     if(NOT TEST_WAITS)
         set_tests_properties(${name} PROPERTIES PROCESSORS 2)
     endif()

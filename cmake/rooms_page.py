@@ -4,7 +4,7 @@ have them; then the example of each room that has one.
 
 The comment above `frustumscreen_room` is a room's purpose; its last line is `# Begin with HEADER.`. The example of a room is the part of
 tests/examples/ROOM_example.cpp between `// example` and `// end`; the comment at the beginning of that file says what it shows.
-Exit status 1: a room lacks one of these, or an example is of no room.
+Exit status 1: a room lacks one of these, or an example belongs to no room.
 """
 
 import pathlib

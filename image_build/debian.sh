@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Makes the Debian that the image is cut from: one tar with all files of the packages, dpkg's data bases and the licences among
-# them, and the packages' list beside it.
+# Makes the Debian system from which the image's files are taken: one tar with all files of the packages, with dpkg's data bases and
+# the licences, and a list of the packages beside it.
 #
 #   debian.sh [--locked LIST] [--mirror URL] [--firmware amd] FOLDER
 #
 # FOLDER/debian.tar             the packages' files; kernel, boot loader and busybox below /unpacked
 # FOLDER/packages.txt           name, version, architecture and source of each
-# LIST has a line with name and version for each package; what is taken must be these. Without it, what Debian has today is taken.
-# Works as root, and without by the kernel's user namespaces (mmdebstrap's mode "unshare").
+# LIST has a line with name and version for each package: exactly these are taken. Without it, Debian's versions of today are taken.
+# Without root, it works by the kernel's user namespaces (mmdebstrap's mode "unshare").
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 say_and_fail() {
@@ -36,9 +36,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 chmod 777 "$work" # without root, mmdebstrap works as another user
 touch "$work/preferences"
-cp "$here/contents/unpack_deb.sh" "$work/" # that user need not see this folder
+cp "$here/contents/unpack_deb.sh" "$work/" # that user may not be able to read this folder
 if [[ -n $locked ]]; then
-    # Above 1000 apt takes a version even where a newer one is there.
+    # With a priority above 1000, apt takes this version even if a newer one is available.
     while read -r name version; do
         printf 'Package: %s\nPin: version %s\nPin-Priority: 1001\n\n' "$name" "$version"
     done <"$locked" >"$work/preferences"
@@ -52,7 +52,7 @@ export APT_CONFIG=\$MMDEBSTRAP_APT_CONFIG
 mkdir "$work/debs" "\$root/unpacked"
 cd "$work/debs"
 for package in ${unpack[*]}; do
-    # linux-image-amd64 is a name for the newest kernel.
+    # linux-image-amd64 is empty and depends on the newest kernel.
     real=\$(apt-cache depends "\$package" | sed -n 's/^ *Depends: \(linux-image-.*\)/\1/p' | head -n 1)
     apt-get download -qq -o APT::Sandbox::User=root "\${real:-\$package}"
 done
@@ -61,7 +61,7 @@ for deb in *.deb; do
     dpkg-deb -W --showformat '\${Package} \${Version} \${Architecture} \${source:Package} \${source:Version}\n' "\$deb"
 done >"$work/unpacked.txt"
 cd /
-rm -r "$work/debs" # without root, no other user may
+rm -r "$work/debs" # here, because without root only mmdebstrap's user may remove it
 dpkg-query --admindir="\$root/var/lib/dpkg" -W \
     -f '\${Package} \${Version} \${Architecture} \${source:Package} \${source:Version}\n' >"$work/installed.txt"
 rm -rf "\$root"/var/cache/* "\$root"/var/lib/apt "\$root"/var/log/*
@@ -87,7 +87,7 @@ fi
 
 LC_ALL=C sort -u "$work/installed.txt" "$work/unpacked.txt" >"$work/packages.txt"
 if [[ -n $locked ]]; then
-    # Each side's own lines; the order of the lists does not matter.
+    # The lines that only one side has; the order of the lists does not matter.
     comm -3 <(LC_ALL=C sort -u "$locked") <(cut -d ' ' -f 1,2 "$work/packages.txt" | LC_ALL=C sort -u) >"$work/differences"
     if [[ -s $work/differences ]]; then
         sed 's/^\t/Debian has:  /; t; s/^/--locked has: /' "$work/differences" >&2

@@ -37,8 +37,8 @@ mcopy -m -i "$work/esp" "$boot" ::EFI/BOOT/BOOTX64.EFI
 mcopy -m -i "$work/esp" "$kernel" "::EFI/Linux/frustumscreen_$version+3.efi"
 mcopy -m -i "$work/esp" "$work/loader.conf" ::loader/loader.conf
 
-# From 128 MiB on it has a second superblock. Space for many small files, whatever the disk it grows to. Nothing is reserved
-# for root, because nobody logs in.
+# From 128 MiB on, ext4 has a second superblock. An inode for each 16 KiB leaves space for many small files on a disk of any size.
+# No blocks are reserved for root, because nobody logs in.
 truncate -s "${data_mib}M" "$work/data"
 E2FSPROGS_FAKE_TIME=$SOURCE_DATE_EPOCH mke2fs -q -t ext4 -b 4096 -i 16384 -m 0 -J size=16 -L frustumscreen -U "$(uuid_of data)" \
     -E "hash_seed=$(uuid_of hash),root_owner=0:0,lazy_itable_init=0,lazy_journal_init=0" "$work/data"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Makes the initrd: busybox, dmsetup, e2fsck, chattr, the drivers of modules.list that are marked so, and initrd/init.
+# Makes the initrd: busybox, dmsetup, e2fsck, chattr, the drivers marked `initrd` in modules.list, and initrd/init.
 #
-#   initrd.sh DEBIAN ROOT LEVEL OUT    DEBIAN: the packages' files; ROOT: the image's, with the modules;
-#                                   LEVEL: of zstd
+#   initrd.sh DEBIAN ROOT LEVEL OUT    DEBIAN: the packages' files; ROOT: the image's root, with the modules;
+#                                      LEVEL: compression level of zstd
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 debian=$1 root=$2 level=$3 out=$4
@@ -12,7 +12,7 @@ trap 'rm -rf "$tree"' EXIT
 version=$(ls "$root/usr/lib/modules")
 mkdir -p "$tree"/{bin,lib64,lib/x86_64-linux-gnu,"lib/modules/$version"}
 cp "$debian/unpacked/bin/busybox" "$tree/bin/"
-libraries() { # of a program, and of these
+libraries() { # FILE: the names of the libraries that a program or a library links
     readelf --dynamic "$1" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p'
 }
 add() {
@@ -36,8 +36,8 @@ depmod --basedir "$tree" "$version"
 # Modules that no device requests
 printf '%s\n' squashfs dm_verity sha256_ssse3 ext4 crc32c_generic crc32c_intel overlay efivarfs sd_mod >"$tree/modules"
 
-# A keymap without a key, as busybox's loadkmap reads it: which of 256 maps follow (those that the kernel has: plain, Shift, AltGr,
-# Ctrl, Shift+Ctrl, Alt, Ctrl+Alt), and for each what its 128 keys do, which is nothing (K_HOLE, 0x0200).
+# An empty keymap in the format of busybox's loadkmap: a byte for each of 256 maps, 1 if the map follows (here those that the kernel has:
+# plain, Shift, AltGr, Ctrl, Shift+Ctrl, Alt, Ctrl+Alt); then for each of these maps 128 keys without a function (K_HOLE, 0x0200).
 {
     printf bkeymap
     for map in {0..255}; do

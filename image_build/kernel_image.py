@@ -14,15 +14,14 @@ ALIGNED = 4096
 
 
 def end_of(stub):
-    """The first address behind the stub's sections."""
+    """The first address after the stub's sections."""
     listed = subprocess.run(["objdump", "--section-headers", "--wide", stub], check=True, capture_output=True, text=True).stdout
     rows = [line.split() for line in listed.splitlines() if line.strip()[:1].isdigit()]
     return max(int(row[3], 16) + int(row[2], 16) for row in rows)
 
 
 def without_time(file):
-    """objcopy writes the time of day into the header (TimeDateStamp), and a checksum of that: two builds would differ. UEFI reads
-    neither."""
+    """Clears TimeDateStamp and the checksum. objcopy writes the current time there, so two builds would differ. UEFI reads neither."""
     with open(file, "r+b") as image:
         image.seek(0x3C)
         (header,) = struct.unpack("<I", image.read(4))

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Cuts the image's root out of Debian's packages and ours: only what files.list and modules.list name, each with a reason, and
-what that needs: the libraries that a program links, the modules that a module needs, what a symbolic link points to.
+"""Makes the image's root from Debian's packages and ours. It takes only the files that files.list and modules.list name, each with a
+reason, and what these need: linked libraries, the modules that a module needs, the targets of symbolic links.
 
     lean.py ROOT KEPT --from TREE [--from TREE]... --files LIST... [--kernel TREE --modules LIST...]
 
---from    where files are looked for, the first tree that has one wins; --kernel: where the kernel's package is unpacked
+--from    a tree to take files from; the first tree that has a file wins. --kernel: the tree of the unpacked kernel package
 ROOT      a folder that is made; all files have the modes of their packages
-KEPT      a table: bytes, the reason, the path; what it is for, when somebody asks
-Errors    one sentence; a line of a list that names nothing is one, so that the lists stay true.
+KEPT      a table of bytes, reason and path, for image_build/why
+Errors    one sentence. A line of a list that matches no file is an error, so that the lists stay true.
 """
 
 import argparse
@@ -26,7 +26,7 @@ MERGED = ("bin", "sbin", "lib", "lib64")  # links into usr
 
 
 class Trees:
-    """Files of several trees laid over one another; paths are relative, without the links of the merged /usr."""
+    """The files of several trees as one tree; paths are relative, without the links of the merged /usr."""
 
     def __init__(self, roots):
         self.files = {}
@@ -43,7 +43,7 @@ class Trees:
         self.names = sorted(self.files)
 
     def like(self, pattern):
-        """All paths that a pattern names: * stays within a folder, ** does not."""
+        """All paths that match a pattern: * stays within a folder, ** does not."""
         if not any(letter in pattern for letter in "*?["):
             return [pattern] if pattern in self.files else []
         regex = re.escape(pattern).replace(r"\*\*", ".*").replace(r"\*", "[^/]*").replace(r"\?", "[^/]")
@@ -52,7 +52,7 @@ class Trees:
         return [name for name in self.names if re.fullmatch(regex, name)]
 
     def target(self, path):
-        """The target of a symbolic link; None: not in the trees, as in /run or /dev."""
+        """The target of a symbolic link; None if it is not in the trees, such as a path in /run or /dev."""
         to = os.readlink(self.files[path])
         whole = os.path.normpath(to.lstrip("/") if to.startswith("/") else os.path.join(os.path.dirname(path), to))
         first, _, rest = whole.partition("/")
@@ -61,7 +61,7 @@ class Trees:
 
 
 def linked(trees, paths):
-    """path -> names of the libraries that it links, of those that are ELF files."""
+    """path -> names of the libraries that it links, for each path that is an ELF file."""
     real = {trees.files[path]: path for path in paths if not os.path.islink(trees.files[path])}
     elves = [file for file in real if open(file, "rb").read(4) == b"\x7fELF"]
     found = {}
@@ -136,11 +136,11 @@ def lay(source, target):
     if os.path.islink(source):
         os.symlink(os.readlink(source), target)
     else:
-        os.link(source, target)  # files that are one in the package stay one
+        os.link(source, target)  # hard links of a package stay hard links
 
 
 def lay_modules(kernel, lists, root):
-    """Lays the modules that the lists name into the root; returns path -> reason."""
+    """Puts the modules that the lists name into the root; returns path -> reason."""
     versions = os.listdir(kernel / "lib/modules")
     if len(versions) != 1:
         raise Wrong(f"{kernel} has not one kernel but {len(versions)}")

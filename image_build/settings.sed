@@ -1,4 +1,4 @@
-# From the settings as shipped, which need no device, to those of a new kiosk.
+# Turns the shipped settings, which need no device, into those of a new kiosk.
 s|^packs = .*|packs = ["/usr/share/frustumscreen/built_in.fspack"]|
 s|^words = .*|words = "/usr/share/frustumscreen/words.fswords" # the exhibit's own words|
 s|^kind = "simulated" # or "usb"|kind = "usb" # or "simulated", without a tracker; "usb"|

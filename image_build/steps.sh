@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# The steps of ./image_build/build, which reads this file. Each works in $work, on what the steps before have left there.
-# shellcheck disable=SC2154 # work: of ./image_build/build
+# The steps of ./image_build/build, which sources this file. Each step works in $work, on the files of the steps before it.
+# shellcheck disable=SC2154 # ./image_build/build sets work
 
 fail() {
     echo "build: $*" >&2
@@ -63,7 +63,8 @@ step() { # WORDS FUNCTION
 # Makes a UUID from words, for names that must be the same in two builds.
 uuid_of() { uuidgen --sha1 --namespace @dns --name "frustumscreen.invalid/$1"; }
 
-# Kept for the day, or with --locked for as long as the list is the same; an image for tests and one for kiosks have the same.
+# Sets `debian` to a folder with Debian's packages. It is kept for the day, or with --locked as long as the list is the same. An image
+# for tests and one for kiosks use the same folder.
 fetch_debian() {
     local wanted today key
     wanted=$({ cat image_build/debian.sh image_build/packages.conf ${firmware:+"image_build/packages.$firmware.conf"}; echo "$mirror"; } |
@@ -114,7 +115,7 @@ unpack_ours() {
 check_needs() {
     local one need word missing=()
     while IFS= read -r need; do
-        for one in ${need//|/ }; do # any of several will do; a version in brackets is no name
+        for one in ${need//|/ }; do # one of several alternatives is enough; a version in brackets is not a name
             word=${one%%:*}
             [[ $word =~ ^[a-z0-9][a-z0-9+.-]+$ ]] || continue
             [[ $word != frustumscreen* ]] || continue 2
@@ -125,7 +126,7 @@ check_needs() {
     ((${#missing[@]} == 0)) || fail "${1##*/} needs${missing[*]}, which packages.conf does not bring: add it there"
 }
 
-# The exhibit's own words, in all languages, spoken; one language in a try. Kept until the bake changes.
+# Bakes the exhibit's own words with speech, in all languages, with --quick only in English. They are kept until the bake changes.
 bake_words() {
     local deb=("$packages"/frustumscreen-bake_*.deb) languages=()
     [[ -e ${deb[0]} ]] || fail "--packages: $packages has no frustumscreen-bake, which bakes the exhibit's words; ./image_build/packages makes it"
@@ -145,11 +146,11 @@ make_root() {
     image_build/lean.py "$root" "$work/kept" --from "$work/ours" --from "$debian/tree" --from "$unpacked" --kernel "$unpacked" \
         --files image_build/files.list "${lists[@]}" --modules image_build/modules.list \
         ${firmware:+"image_build/modules.$firmware.list"}
-    find "$root" -type f -perm /6000 -exec chmod ug-s {} + # no program makes its user root
+    find "$root" -type f -perm /6000 -exec chmod ug-s {} + # removes setuid and setgid: no program gives its user more rights
     cp -R image_build/files/. "$root/"
     [[ -z $update_ca ]] || install -m 644 "$update_ca" "$root/etc/rauc/keyring.pem"
     mkdir -p "$root"/{dev,proc,sys,run,tmp,var,data,efi,etc/frustumscreen,etc/systemd/system}
-    : >"$root/etc/machine-id" # the first start's (initrd/init)
+    : >"$root/etc/machine-id" # the first start makes it (initrd/init)
     rm -f "$root/usr/lib/os-release"
     {
         cat "$debian/tree/usr/lib/os-release"
@@ -157,7 +158,7 @@ make_root() {
     } >"$root/usr/lib/os-release"
     ln -sf ../usr/lib/os-release "$root/etc/os-release"
     systemd-sysusers --root="$root" 2>"$work/users.log" || { cat "$work/users.log" >&2; fail "the users could not be made"; }
-    chmod 600 "$root"/etc/{shadow,gshadow} # else who is not root cannot read them into the image
+    chmod 600 "$root"/etc/{shadow,gshadow} # so that a build without root can read them into the image
     rm -f "$root"/etc/.pwd.lock "$root"/etc/{passwd,group,shadow,gshadow}-
     name=$(awk -F: '$3 > 127 && $3 < 65534 {print $1}' "$root/etc/passwd" "$root/etc/group")
     [[ -z $name ]] || fail "files/usr/lib/sysusers.d/00-image.conf gives no number to: ${name//$'\n'/, }"
@@ -210,18 +211,18 @@ settings_of_image() {
     local file=$1/usr/share/frustumscreen/kiosk.toml
     sed -f image_build/settings.sed "$file" >"$work/kiosk.toml"
     install -m 644 "$words" "$1/usr/share/frustumscreen/words.fswords"
-    rm "$file" # it is a link to the package's
+    rm "$file" # a hard link to the package's file, which must not change
     install -m 644 "$work/kiosk.toml" "$file"
     install -m 644 "$work/kiosk.toml" "$1/etc/frustumscreen/kiosk.toml"
-    # With this machine's libraries, which are the same Debian's
+    # Runs with this machine's libraries, which are of the same Debian.
     sed "s|\"/usr/share/|\"$1/usr/share/|" "$work/kiosk.toml" >"$work/checked.toml"
     "$1/usr/bin/frustumscreen" config --config "$work/checked.toml" --json >/dev/null || fail "settings.sed makes settings that are wrong"
 }
 
-# A slot's contents: the root, behind it verity's header and hashes, behind them the code that mends damaged blocks.
+# Makes a slot's contents: the root, then verity's header and hashes, then the code that corrects damaged blocks.
 make_slot() {
     local slot=$work/slot blocks formatted
-    # All files are root's: what others own is made at each start.
+    # Root owns all files in the image; files of other users are made at each start.
     env -u SOURCE_DATE_EPOCH mksquashfs "$work/root" "$slot" -quiet -no-progress -comp zstd -Xcompression-level "$level" -b 256K -all-root -no-xattrs \
         -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -reproducible -exit-on-error >/dev/null
     blocks=$(($(stat -c %s "$slot") / 4096))
@@ -241,13 +242,12 @@ make_kernel_image() {
     local initrd=$work/initrd unpacked=$debian/tree/unpacked kernel
     kernel=$(ls "$unpacked/lib/modules")
     image_build/initrd.sh "$debian/tree" "$work/root" "$level" "$initrd"
-    # console=ttyS0: what the kernel and the service manager say at a restart goes to a serial line, which a PC need not have; else the
-    # kernel writes it onto the table, once the exhibit has let go of the screen.
+    # console=ttyS0: the messages of the kernel and the service manager at a restart go to a serial line, which a PC need not have.
+    # Otherwise the kernel would write them onto the table as soon as the exhibit has released the screen.
     # no_timer_check: at the start the kernel waits some 60 ms of the processor's clock for four ticks of the timer, and panics without
-    # them ("IO-APIC + timer doesn't work!"). A processor that stands still meanwhile, as an emulated one on a busy machine does, is no
-    # broken timer.
-    # watchdog.stop_on_reboot=0: drivers stop the hardware's watchdog when the kernel is to restart the machine, and then nobody
-    # watches whether it does.
+    # them ("IO-APIC + timer doesn't work!"). The ticks can also be missing because an emulated processor stops on a busy host.
+    # watchdog.stop_on_reboot=0: by default, drivers stop the hardware's watchdog before the kernel restarts the machine, so a restart
+    # that hangs would never end.
     {
         printf '%s ' quiet loglevel=3 console=ttyS0 lockdown=integrity panic=5 oops=panic sysctl.kernel.sysrq=0 vt.global_cursor_default=0 \
             gpt i8042.nokbd i8042.noaux no_timer_check watchdog.stop_on_reboot=0 net.ifnames=0 systemd.gpt_auto=0 systemd.import_credentials=0 systemd.show_status=0
@@ -264,7 +264,7 @@ make_kernel_image() {
     [[ -z $keys ]] || sign "$work/boot.efi"
 }
 
-# Makes a kernel image with one initrd; the rest is the same. Reads make_kernel_image's variables.
+# Makes a kernel image with the given initrd; all other parts are the same. It reads make_kernel_image's variables.
 put_together() { # INITRD OUT
     image_build/kernel_image.py --stub "$unpacked/usr/lib/systemd/boot/efi/linuxx64.efi.stub" \
         --os-release "$work/root/usr/lib/os-release" --command-line "$work/cmdline" \
@@ -272,7 +272,7 @@ put_together() { # INITRD OUT
     [[ -z $keys ]] || sign "$2"
 }
 
-sign() { # FILE: with the time of the commit, so that the bytes are always the same
+sign() { # FILE. The signature has the time of the commit, so that the bytes are always the same.
     faketime -f "@$(date -u -d "@$SOURCE_DATE_EPOCH" '+%Y-%m-%d %H:%M:%S')" \
         sbsign --key "$keys/db.key" --cert "$keys/db.crt" --output "$1.signed" "$1" 2>"$work/sbsign.log" ||
         { cat "$work/sbsign.log" >&2; fail "sbsign could not sign with the keys in $keys"; }
@@ -287,7 +287,7 @@ make_disk() {
         mv "$work/agent.efi" "$work/kernel.efi"
         image_build/disk.sh --version "$version" --data "$data_size" "$work/boot.efi" "$work/kernel.efi" "$work/slot" "$work/disk"
     fi
-    rm -f "$out"/frustumscreen_*.{slot,efi} # of another version
+    rm -f "$out"/frustumscreen_*.{slot,efi} # files of other versions
     mv "$work/disk" "$out/frustumscreen.raw"
     cp "$work/kiosk.toml" "$out/" # for a technician to begin with
     mv "$work/slot" "$out/frustumscreen_$version.slot"
@@ -298,7 +298,7 @@ make_disk() {
     echo "$root_hash" >"$out/root_hash"
 }
 
-# What is known of the packages goes beside the image, and from that and from the image itself comes what is in it.
+# Keeps the packages' data beside the image, and makes the bill of materials, the licences and why.txt from these data and the image.
 say_what_is_in_it() {
     image_build/contents/keep_provenance.py "$out/provenance" --compiled-in image_build/contents/compiled_in.list \
         --tree ours="$work/ours" --tree debian="$debian/tree" --tree unpacked="$debian/tree/unpacked"

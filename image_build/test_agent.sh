@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Makes what --test adds to the initrd: QEMU's guest agent, what a test calls in the guest, and the script that lays both over the
-# root. An image for kiosks has nothing of it, and it cannot be added there: the initrd is a part of the signed kernel image.
+# Makes the files that --test adds to the initrd: QEMU's guest agent, the programs that a test calls in the guest, and the script that
+# lays both over the root. An image for kiosks has none of them, and they cannot be added to it: the initrd is part of the signed kernel
+# image.
 #
-#   test_agent.sh DEBIAN ROOT OUT.cpio    DEBIAN: the packages' files; ROOT: the image's; OUT: to be put behind the initrd
+#   test_agent.sh DEBIAN ROOT OUT.cpio    DEBIAN: the packages' files; ROOT: the image's; OUT: appended to the initrd by the caller
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 debian=$1 root=$2 out=$3

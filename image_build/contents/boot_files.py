@@ -1,4 +1,4 @@
-"""Reads what is in the image beside the root: the kernel image's sections, the initrd's files, the boot partition's files.
+"""Reads the parts of the image that are not in the root: the kernel image's sections, the initrd's files, the boot partition's files.
 
 Source   PE format, the header of sections; cpio(5), "newc"; systemd-stub(7).
 Errors   ValueError, in a sentence; subprocess.CalledProcessError of zstd, sfdisk and mtools.
@@ -25,7 +25,7 @@ def sections_of(path):
 
 
 def files_of_initrd(packed):
-    """path -> (mode, bytes); of all archives in it, one behind the other, packed with zstd."""
+    """path -> (mode, bytes) of the files in all archives of the initrd, which follow one another and are packed with zstd."""
     data = subprocess.run(["zstd", "-qdc"], input=packed, check=True, capture_output=True).stdout
     files, at = {}, 0
     while at < len(data):
@@ -45,7 +45,7 @@ def files_of_initrd(packed):
 
 
 def files_of_boot_partition(disk):
-    """path -> bytes; only what is small or a boot loader: the kernel images lie beside the disk as well."""
+    """path -> bytes, without the kernel images, which also lie beside the disk."""
     table = json.loads(subprocess.run(["sfdisk", "--json", disk], check=True, capture_output=True).stdout)["partitiontable"]
     starts = [part["start"] * table.get("sectorsize", 512) for part in table["partitions"] if part.get("name") == "frustumscreen-esp"]
     if len(starts) != 1:

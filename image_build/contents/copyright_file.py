@@ -1,14 +1,14 @@
-"""Reads a Debian package's copyright file: which licences it names, as far as it is machine-readable.
+"""Reads the licences that a Debian package's copyright file names, if the file is machine-readable.
 
 Source   Debian, "Machine-readable debian/copyright file" 1.0: short names, "and", "or", commas; SPDX licence list and expressions.
-Errors   none: what is not machine-readable names nothing.
+Errors   none: a file that is not machine-readable gives no licence.
 """
 
 import re
 
 from dpkg_database import paragraphs
 
-# Debian's short names, in small letters, that are not made by the rules below, and what SPDX calls them.
+# Debian's short names, in lower case, that the rules below do not cover, and their SPDX names.
 NAMES = {
     "expat": "MIT", "mit": "MIT", "mit/x11": "MIT", "x11": "X11", "isc": "ISC", "zlib": "Zlib", "libpng": "Libpng", "ftl": "FTL",
     "bsd-1-clause": "BSD-1-Clause", "bsd-2-clause": "BSD-2-Clause", "bsd-3-clause": "BSD-3-Clause", "bsd-4-clause": "BSD-4-Clause",
@@ -27,7 +27,7 @@ EXCEPTIONS = {
     "libtool": "Libtool-exception", "font": "Font-exception-2.0",
     "llvm": "LLVM-exception", "classpath": "Classpath-exception-2.0",
 }
-# Debian's GPL without a number is any version; SPDX begins with 1.0 (GPL) and 2.0 (LGPL).
+# Debian's GPL without a number means any version; SPDX's first versions are 1.0 (GPL) and 2.0 (LGPL).
 GNU = re.compile(r"(A?GPL|LGPL|GFDL)(-NIV)?(?:-?v?([0-9.]+))?(\+|-or-later|-only)?(-no-invariants?)?", re.IGNORECASE)
 
 
@@ -50,7 +50,7 @@ def gnu(match):
 
 
 def single(name):
-    """SPDX of one licence, with its exception where it has one."""
+    """The SPDX expression of one licence, with its exception if it has one."""
     name = name.strip()
     if name.lower() in NAMES:
         return NAMES[name.lower()]
@@ -70,7 +70,7 @@ def joined(parts, word):
 
 
 def expression(short):
-    """SPDX of a short name with "and", "or" and commas: "and" binds more than "or", and a comma in front of either binds least."""
+    """The SPDX expression of a short name. "and" binds more tightly than "or"; a comma before either makes it bind least."""
     found, word = None, "AND"
     for part in re.split(r"\s*,\s*((?:and|or)\s+)?", short.strip(), flags=re.IGNORECASE):
         if part is None or re.fullmatch(r"(and|or)\s+", part, flags=re.IGNORECASE):
@@ -83,7 +83,7 @@ def expression(short):
 
 
 def licences_of(text):
-    """The expressions of all files but those of the packaging, each once, in order; empty: not machine-readable."""
+    """The distinct expressions of all files except the packaging's, sorted; empty if the file is not machine-readable."""
     found, first = [], True
     for fields in paragraphs(text.replace("\t", " ")):
         if first and not re.search("copyright-format|dep5", fields.get("Format", fields.get("Format-Specification", "")).lower()):

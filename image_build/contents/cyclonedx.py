@@ -1,7 +1,7 @@
-"""Makes the bill of materials: what is in the image, with versions, licences and the hash of each file, for other programs.
+"""Makes the bill of materials: the image's contents, with versions, licences and the hash of each file, for other programs.
 
-Format   CycloneDX 1.4, JSON: the oldest that says all that is said here, so that every tool reads it; Apache-2.0, as its schema.
-         SPDX 2.3 would say the same; CycloneDX has package URLs and licence expressions where scanners for vulnerabilities look.
+Format   CycloneDX 1.4, JSON: the oldest version that can express all of this, so that every tool reads it; Apache-2.0, as its schema.
+         SPDX 2.3 could express the same; CycloneDX has package URLs and licence expressions where scanners for vulnerabilities look.
 Source   https://cyclonedx.org/docs/1.4/json/; purl types "deb" and "generic" of https://github.com/package-url/purl-spec
 Bytes    the same for the same image: time and number are the image's, not the clock's.
 """
@@ -30,7 +30,7 @@ def source_component(name, version):
 
 
 def licences(text):
-    """The members of a component that tell its licences: declared, or only referred to."""
+    """The members of a component that have its licences: declared ones, or those that its text only refers to."""
     found = copyright_file.licences_of(text)
     if len(found) == 1 and " " not in found[0] and not found[0].startswith("LicenseRef-"):
         return {"licenses": [{"license": {"id": found[0]}}]}
@@ -59,7 +59,7 @@ def component(package, text, properties):
 
 
 def dependencies(contents, packages, components):
-    """The image has all; a package needs those of its dependencies that are in the image, and ours what they have compiled in."""
+    """The image depends on all components, a package on its dependencies that are in the image, and ours also on headers compiled in."""
     headers = [purl(package) for package, what in contents.compiled_in if what.startswith("headers:")]
     graph = {"image": [made["bom-ref"] for made in components]}
     for package in packages.values():
@@ -69,7 +69,7 @@ def dependencies(contents, packages, components):
 
 
 def make(contents, texts):
-    """The bill; texts: package -> (its copyright file's text, the name of that in licences.tar)."""
+    """The bill of materials; texts: package -> (text of its copyright file, name of that text in licences.tar)."""
     by_package = {}
     for item in contents.items:
         by_package.setdefault(item.package, []).append(item)

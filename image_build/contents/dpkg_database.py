@@ -1,4 +1,4 @@
-"""Reads what the build has kept of dpkg's data base: which packages there are, and whose a file is.
+"""Reads the parts of dpkg's data base that the build has kept: the packages, and which package a file belongs to.
 
 Source   dpkg(1), deb-control(5): var/lib/dpkg/status, var/lib/dpkg/info/PACKAGE.list.
 Errors   OSError: a folder without a data base.
@@ -18,14 +18,14 @@ class Package:
     source: str
     source_version: str
     summary: str
-    inside: tuple  # (source, version) of what is linked in, as the package says
-    depends: tuple  # names, all alternatives among them
-    folder: object  # the tree that was kept of it: usr/share/doc is there
+    inside: tuple  # (source, version) of the sources linked in, from Built-Using and Static-Built-Using
+    depends: tuple  # names, with all alternatives
+    folder: object  # the kept tree that has its usr/share/doc
     built_here: bool
 
 
 def paragraphs(text):
-    """Each paragraph as a dictionary of its fields; lines that go on are kept with their newlines."""
+    """Each paragraph as a dictionary of its fields; a continued field keeps its newlines."""
     for paragraph in re.split(r"\n\s*\n", text):
         fields, name = {}, None
         for line in paragraph.splitlines():
@@ -65,7 +65,7 @@ class Database:
         self.packages, self.owner = {}, {}
 
     def add(self, folder, built_here=False):
-        """Reads the data base of a tree; what was added before comes first."""
+        """Reads the data base of a tree; a package or file that an earlier tree has keeps that tree's entry."""
         place = folder / "var/lib/dpkg"
         for fields in paragraphs((place / "status").read_text(encoding="utf-8")):
             if "Version" not in fields or not fields.get("Status", "install ok installed").endswith(" installed"):
@@ -81,7 +81,7 @@ class Database:
 
 
 def read_kept(folder):
-    """The data base of all that the image was made from: ours, Debian's, what was only unpacked."""
+    """The data base of all packages that the image was made from: ours, Debian's installed ones, and those that were only unpacked."""
     database = Database()
     for name in ("ours", "debian", "unpacked"):
         if (folder / name / "var/lib/dpkg/status").exists():

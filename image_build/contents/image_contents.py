@@ -1,9 +1,9 @@
-"""Says of everything in the image what it is, whose it is, how large it is and why it is there.
+"""Lists everything in the image: its kind, its package, its size and the reason for it.
 
-Paths    as in the root, without the leading slash; of the rest below initrd/, kernel_image/ and boot_partition/.
-Bytes    of files, unpacked; and what they take in the image: in the root exactly, since squashfs packs in blocks that belong to
-         files; in the initrd, which is packed as one, its files' shares of what each takes when it is packed alone.
-Errors   Wrong, one sentence: something is in the image that no list has a reason or a purpose for; a part of the image is missing.
+Paths    as in the root, without the leading slash; other files are below initrd/, kernel_image/ and boot_partition/.
+Bytes    of files, unpacked; and in the image. In the root the latter are exact, because squashfs packs each file in blocks of its own.
+         The initrd is packed as one; its size is shared in proportion to the packed size of each file alone.
+Errors   Wrong, one sentence: no list has a reason or a purpose for something in the image; a part of the image is missing.
 """
 
 import collections
@@ -21,7 +21,7 @@ import squashfs
 from word_lists import Wrong, first_match, lines_of
 
 LISTS = pathlib.Path(__file__).resolve().parent
-MADE = "(made by the build)"  # the package of files that no package has
+MADE = "(made by the build)"  # stands for the package of files that belong to none
 
 
 @dataclasses.dataclass
@@ -40,11 +40,11 @@ class Item:
 @dataclasses.dataclass
 class Contents:
     items: list
-    database: object  # dpkg_database.Database, with all packages, not only those that are in the image
-    compiled_in: list  # (Package, what of it is in which program)
+    database: object  # dpkg_database.Database, also with packages that are not in the image
+    compiled_in: list  # (Package, which part of it is in which program)
     version: str
     time_s: int  # the image's
-    parts: list  # (what, bytes): what lies around the files
+    parts: list  # (what, bytes): the image's bytes that belong to no file
 
 
 def one_file(folder, pattern):
@@ -65,7 +65,7 @@ def root_items(image):
             yield Item(path, "link", 0, 0, "")
         elif file.kind == "file":
             item = item_of(path, image.read(file), file.taken)
-            if file.inode in inodes:  # a second name
+            if file.inode in inodes:  # a second name of the same file
                 item.size, item.taken = 0, 0
             inodes.add(file.inode)
             yield item
@@ -76,7 +76,7 @@ def packed_alone(data):
 
 
 def initrd_items(packed):
-    """Items of the initrd; what they take adds up to the initrd."""
+    """Items of the initrd; their packed bytes add up to the size of the initrd."""
     files = boot_files.files_of_initrd(packed)
     plain = [path for path, (mode, _) in files.items() if stat.S_ISREG(mode)]
     with ThreadPoolExecutor(2) as workers:
@@ -116,7 +116,7 @@ def explain(items, database, kept):
     from_packages = dict(lines_of(LISTS / "sources.list"))
     for item in items:
         package = first_match(from_packages.items(), item.path)
-        if package:  # a section of the kernel image, a boot loader: no longer under its package's path
+        if package:  # a section of the kernel image or a boot loader, whose path differs from that in its package
             package = next((name for name in sorted(database.packages) if re.fullmatch(package, name)), None)
         else:
             package = owner_of(item.path, database.owner)
@@ -145,7 +145,7 @@ def read_compiled_in(folder):
 
 
 def read(out):
-    """All that is in the image in the folder out, as ./image_build/build has left it there."""
+    """The contents of the image that ./image_build/build has left in the folder out."""
     try:
         image = squashfs.Squashfs(one_file(out, "frustumscreen_*.slot"))
         kernel_image = one_file(out, "frustumscreen_*.efi")

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Keeps, beside the image, what is known of the packages that it was made from: dpkg's data base and the texts of their licences.
+"""Keeps, beside the image, dpkg's data base and the licence texts of the packages that the image was made from.
 
     keep_provenance.py OUT --tree NAME=FOLDER... --compiled-in LIST
 
 OUT/NAME/var/lib/dpkg            status and info/*.list of each tree
 OUT/NAME/usr/share/doc, .../common-licenses    the packages' copyright files and the licences that they refer to
-OUT/compiled_in                  the same of the packages in LIST, as they are on this machine, where our programs are built
+OUT/compiled_in                  the same of the packages in LIST, as installed on this machine, which builds our programs
 Errors   one sentence: a package of LIST is not installed here.
 """
 
@@ -19,7 +19,7 @@ from word_lists import Wrong, lines_of
 
 
 def copy_inside(root, path, target):
-    """Copies what a path leads to, through links, as long as these stay in the tree."""
+    """Copies the file that a path leads to, also through links, if it lies in the tree."""
     root, real = root.resolve(), path.resolve()
     if path.exists() and real.is_file() and real.is_relative_to(root):
         target.parent.mkdir(parents=True, exist_ok=True)

@@ -11,12 +11,12 @@ import struct
 SUPERBLOCK = struct.Struct("<IIIIIHHHHHHQQQQQQQQ")
 MAGIC, ZSTD = 0x73717368, 6
 NO_FRAGMENT = 0xFFFFFFFF
-UNCOMPRESSED = 1 << 24  # of a data block's size; of a metadata block's it is bit 15
-METADATA = 8192  # bytes that a metadata block holds, unpacked
+UNCOMPRESSED = 1 << 24  # flag in a data block's size word; in a metadata block's it is bit 15
+METADATA = 8192  # bytes of a full metadata block, unpacked
 
 
 class File:
-    """kind: "file", "link", "folder" or "other"; taken: bytes in the image, shares of common blocks among them."""
+    """kind: "file", "link", "folder" or "other"; taken: bytes in the image, with its shares of common blocks."""
 
     def __init__(self, kind, size=0, inode=0, target=""):
         self.kind, self.size, self.inode, self.target, self.taken = kind, size, inode, target, 0.0
@@ -62,7 +62,7 @@ class Squashfs:
         return (data if word & 0x8000 else self.unpack(data, METADATA)), place + 2 + (word & 0x7FFF)
 
     def read_table(self, begin, end):
-        """(all bytes of a table, where in them each block begins); what follows the folders' table ends it too."""
+        """(all bytes of a table, place of a block after `begin` -> its offset in these bytes). A block that is not full ends it."""
         data, at, place = bytearray(), {}, begin
         while place < end:
             block, following = self.metadata(place)
@@ -74,7 +74,7 @@ class Squashfs:
         return bytes(data), at
 
     def read_fragments(self, table, count):
-        """(place, size word) of each."""
+        """(place, size word) of each fragment block."""
         self.image.seek(table)
         blocks = -(-count * 16 // METADATA)
         places = struct.unpack(f"<{blocks}Q", self.image.read(8 * blocks))

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Unpacks a package below a folder, and enters it into a dpkg data base there (var/lib/dpkg), by which image_build/why knows whose
-# a file is. No script of the package runs.
+# Unpacks a package below a folder, and enters it into a dpkg data base there (var/lib/dpkg), in which image_build/why looks up the
+# package of a file. No script of the package runs.
 #
 #   unpack_deb.sh DEB FOLDER
 set -eu

@@ -1,4 +1,4 @@
-"""Reads the lists that the image is made by: a pattern or a name, two or more spaces, and a reason or a purpose.
+"""Reads the lists from which the image is made. A line: a pattern or a name, two or more spaces, a reason or a purpose.
 
 Errors   Wrong, one sentence: a line without its second part.
 """
@@ -12,7 +12,7 @@ class Wrong(Exception):
 
 
 def lines_of(path):
-    """(what comes first, what comes after two spaces or more) of each line."""
+    """(the part before two or more spaces, the part after them) of each line."""
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.strip() and not line.startswith("#"):
             first, _, rest = re.sub(r"\s{2,}", "\t", line.strip()).partition("\t")
@@ -29,7 +29,7 @@ def regex_of(pattern):
 
 
 def first_match(lines, path, names=()):
-    """The second part of the first line whose pattern names the path, or is one of the names; None where there is none."""
+    """The second part of the first line whose pattern matches the path or is one of the names; None without such a line."""
     for pattern, rest in lines:
         if pattern in names or ":" not in pattern and regex_of(pattern).fullmatch(path):
             return rest

@@ -3,9 +3,9 @@
 
     write_bill.py IMAGE-FOLDER
 
-IMAGE-FOLDER/sbom.json       CycloneDX 1.4: packages, what is compiled in, the hash of each file
-IMAGE-FOLDER/licences.tar    each copyright file of a package that is in the image, once, the licences that they refer to, and
-                             INDEX, by which a package's text is found
+IMAGE-FOLDER/sbom.json       CycloneDX 1.4: packages, code compiled into our programs, the hash of each file
+IMAGE-FOLDER/licences.tar    the copyright file of each package in the image, each text once; the licences that these refer to; and
+                             INDEX, which names the text of each package
 Errors   one sentence: a package without a copyright file.
 """
 
@@ -40,7 +40,7 @@ def texts_of(contents):
 
 
 def common_texts(texts, provenance):
-    """name -> text of the common licences that are referred to."""
+    """name -> text of the common licences that copyright files refer to."""
     found = {}
     for name in sorted({name for text, _ in texts.values() for name in copyright_file.common_licences_of(text)}):
         path = provenance / "debian/usr/share/common-licenses" / name

@@ -136,7 +136,7 @@ def by_scipy(rows, truth):
     def residuals(v, white):
         m = model_of(v)
         arm = rotation.apply(m["offset"])
-        off = seen(m, t + arm, frame) - goal * [1, 1, 1 + v[18]]  # the boards' true height differs from the given one
+        off = seen(m, t + arm, frame) - goal * [1, 1, 1 + v[18]]  # v[18]: how far the boards' true height differs from the given one
         up = frame @ m["normal"]
         return np.concatenate([np.concatenate([w @ r for w, r in zip(white, off)]),
                                [(v[0] - v[1]) / PRIOR["aspect"],

@@ -1,4 +1,4 @@
-"""Tests frustumscreen-calibrate auto on the table without a camera: its words and its end; and the printed tag sheet.
+"""Tests frustumscreen-calibrate auto on the table without a camera: its messages and how it ends; and the printed tag sheet.
 
     camera_program.py BIN        BIN: the folder with the programs
 """

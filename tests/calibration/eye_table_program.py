@@ -1,5 +1,5 @@
-"""Tests frustumscreen-calibrate eye on the table from beginning to end, without a person: a recording of two sensors, in which the head brings
-the prop's corners over the shown crosses, and a script that presses Next.
+"""Tests frustumscreen-calibrate eye on the table from beginning to end, without a person. A recording of two sensors stands for the person,
+whose head moves so that the prop's corners lie over the shown crosses, and a script presses Next.
 
     eye_table_program.py BIN        BIN: the folder with the programs
 

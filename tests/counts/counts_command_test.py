@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""`frustumscreen counts` on folders that an exhibit could have left, and on damaged ones: its table is summed again from the files.
+"""Tests `frustumscreen counts` on folders that an exhibit could have left, and on damaged ones. The sums are computed again from the files.
 
 counts_command_test.py PROGRAM [unittest's arguments]
 """
@@ -23,7 +23,7 @@ def tally(visits, ms):
 
 
 def day_file(day, hours, artifacts):
-    """`artifacts`: name: (visits, ms), which add up to the hours' ms."""
+    """`artifacts`: name -> (visits, ms); the ms add up to those of the hours."""
     ms = sum(each[1] for each in hours.values())
     return {"frustumscreen_counts": 1, "day": day,
             "hours": [{"hour": hour} | tally(*each) for hour, each in hours.items()],

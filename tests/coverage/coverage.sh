@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ./test coverage: builds with gcov, runs the tests, and says by room which lines and branches they reached. The pages are in
+# ./test coverage: builds with gcov, runs the tests, and prints for each room which lines and branches they reached. The pages are in
 # out/coverage.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

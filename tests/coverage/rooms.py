@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Lines and branches that the tests reached, by room, and the files that none reached; `./test coverage` calls this.
+"""Prints the lines and branches that the tests reached in each room, and the files that no test reached; `./test coverage` calls this.
 
     rooms.py SUMMARY PLACES    SUMMARY: of gcovr --json-summary; PLACES: the build's tests/layers/layers.txt
 """
@@ -8,7 +8,7 @@ import json
 import pathlib
 import sys
 
-WANTED = 85.0  # percent of a room's lines; docs/tested.md says why a room has less
+WANTED = 85.0  # percent of a room's lines; docs/tested.md gives the reasons of rooms below it
 
 
 def places(path):
@@ -18,7 +18,7 @@ def places(path):
 
 
 def room_of(file, rooms):
-    """The room of the innermost folder."""
+    """The room of the innermost folder that contains the file."""
     folder = max((folder for folder in rooms if file == folder or file.startswith(f"{folder}/")), key=len, default="")
     return folder and rooms[folder]
 

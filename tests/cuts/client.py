@@ -1,4 +1,4 @@
-"""A machine that writes to a served disk, as small as it gets: for the test of the log, without an emulated PC."""
+"""A minimal client that writes to a served disk, in place of an emulated PC: for the test of the log."""
 
 import socket
 import struct

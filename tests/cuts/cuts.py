@@ -1,8 +1,9 @@
-"""Cuts the power of a kiosk, in every phase of its life, on a disk with a volatile write cache, and looks at what is left.
+"""Cuts the power of a kiosk, in every phase of its life, on a disk with a volatile write cache, and checks the disk that is left.
 
-A kiosk runs once through everything that it keeps, on a disk that keeps a log of its writes (kiosk.Session). For each cut, chance takes a
-moment of that log and says what of the unflushed bytes arrived (write_log.Replay). Each such disk is held against Debian's tools
-(states.Checker); a sample of them is started in an emulated PC until the exhibit is lit, some recorded again and cut again.
+A kiosk runs once through everything that it keeps, on a disk that records its writes in a log (kiosk.Session). For each cut, a random
+moment of that log is chosen, and a random part of the bytes that were not flushed reaches the disk (write_log.Replay). Debian's tools check
+each such disk (states.Checker). A sample of the disks is started in an emulated PC until the exhibit is lit; some of these starts are
+recorded and cut again.
 """
 
 import argparse
@@ -32,9 +33,9 @@ PHASES = ("first start", "save", "import", "running", "update", "start")
 # Cases that need a start with firmware and boot loader, which take most of a start's time
 OF_THE_FIRMWARE = {"boot partition not clean", "boot partition marked as in use", "empty kernel image", "second partition table"}
 AGAIN = "after a cut: "
-CUTS_AGAIN = 40  # of a start after a cut
+CUTS_AGAIN = 40  # cuts of a start that follows a cut
 KEPT_DISKS = 3  # faulty states of each recording, for debugging
-ENOUGH = 40  # cuts while settings are saved, of which some must lose what was not synced: one in eight does
+ENOUGH = 40  # cuts while settings are saved: with so many, some must lose unsynced data, since one in eight does
 
 
 class Row:
@@ -58,7 +59,7 @@ def table(rows):
 
 @dataclass
 class Cut:
-    """One that is started."""
+    """A cut whose disk is started."""
 
     number: int
     phase: str
@@ -68,7 +69,7 @@ class Cut:
 
 
 class Cuts:
-    """One run of the harness. `arguments`: of the command line."""
+    """One run of the harness. `arguments`: those of the command line."""
 
     def __init__(self, arguments):
         self.work = arguments.out
@@ -88,7 +89,7 @@ class Cuts:
         (self.work / "table.md").write_text(table(self.rows), encoding="utf-8")
 
     def record(self, folder):
-        """One kiosk's life."""
+        """Records one kiosk's life."""
         shutil.rmtree(folder, ignore_errors=True)
         (self.work / f"bundles/update-{NEXT}.raucb").unlink(missing_ok=True)
         bundle = self.updates.make()
@@ -103,8 +104,8 @@ class Cuts:
             life.start_again()
 
     def look(self, folder, count, boots, chance, *, heeds_flushes=True, label="", must=None, cut_again=0):
-        """Cuts a recording: `count` states of each phase looked at, `boots` of each started, `cut_again` of each of these recorded, and
-        cut in turn. Returns how many had a fault."""
+        """Cuts a recording. In each phase it checks `count` states, starts `boots` of them, and records and cuts `cut_again` of these
+        starts. Returns the number of states with a fault."""
         now = self.work / f"now-{label.strip(': ').replace(' ', '-')}.raw"
         replay = Replay(folder / "start.raw", folder / "writes.log", now, heeds_flushes)
         checker = Checker(self.work / f"check-{now.stem}", self.versions, self.tools, self.image, now.stat().st_size)
@@ -135,7 +136,7 @@ class Cuts:
                 replay.keep(self.work / f"faulty-{now.stem.removeprefix('now-')}{number}.raw")
             row.faulty += bool(state.faults)
             faulty += bool(state.faults)
-            is_new, known = bool(boots and state.notes - known), known | state.notes  # the first of each kind is started, too
+            is_new, known = bool(boots and state.notes - known), known | state.notes  # the first state with a new note is started, too
             if (number in started or is_new) and state.kernel:
                 left_to_cut_again[phase] -= 1
                 self.start(Cut(number, phase, state, must, row), replay, left_to_cut_again[phase] >= 0, chance)
@@ -154,7 +155,7 @@ class Cuts:
         return found
 
     def start(self, cut, replay, is_recorded, chance):
-        """Starts the disk as it is now; it must be lit after one start, and keep what it must."""
+        """Starts a copy of the present disk. The exhibit must be lit after one start, and acknowledged data must be there."""
         folder = self.work / f"start-{cut.number}"
         disk = self.work / "cut.raw"
         replay.keep(disk)
@@ -190,7 +191,7 @@ class Cuts:
 
     @staticmethod
     def _lost(pc, must):
-        """The parts that the started kiosk lacks, by its own report."""
+        """The acknowledged data that the started kiosk lacks, by its own report."""
         wrong = []
         if "machine-id" in must.least and pc.check("cat /etc/machine-id").strip() != must.least["machine-id"]:
             wrong.append("another machine-id")
@@ -210,10 +211,10 @@ class Cuts:
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./test image --cuts", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("states", nargs="?", type=int, default=240, help="how many cuts are looked at, in all phases together (240)")
+    parser.add_argument("states", nargs="?", type=int, default=240, help="how many cuts are checked, in all phases together (240)")
     parser.add_argument("--boots", type=int, default=12, help="how many of them are started in the emulated PC (12)")
     parser.add_argument("--again", type=int, default=1, help="how many of these starts, of each phase, are cut again (1)")
-    parser.add_argument("--seed", type=int, default=1, help="another one: other cuts (1)")
+    parser.add_argument("--seed", type=int, default=1, help="another seed chooses other cuts (1)")
     parser.add_argument("--recorded", type=pathlib.Path, help="the folder of an earlier recording, OUT/recorded, instead of a new one")
     parser.add_argument("--image", type=pathlib.Path, default=CHECKOUT / "out/image/test/frustumscreen.raw")
     parser.add_argument("--next", type=pathlib.Path, default=CHECKOUT / "out/image/next/test", help="folder of the update's image")
@@ -233,7 +234,7 @@ def main():
     cuts.look(recorded, per_phase, boots, random.Random(arguments.seed), cut_again=min(arguments.again, boots))
     cuts.write_table()
     print(table(cuts.rows), "\n".join(cuts.faults), sep="\n")
-    # The controls: where there is damage, the same harness must find it.
+    # The controls: the same harness must find damage where there is some.
     unsafe = sum(row.notes["unsafe file lost"] for row in cuts.rows.values())
     lying = Cuts(arguments)
     found = lying.look(recorded, min(per_phase, 20), 0, random.Random(arguments.seed), heeds_flushes=False)

@@ -1,4 +1,4 @@
-"""The kiosks whose power is cut: the image in an emulated PC, on a disk that keeps a log of its writes or on one that a cut has left.
+"""The kiosks whose power is cut: the image in an emulated PC, on a disk that records its writes or on one that a cut has left.
 
 Threads  one caller.
 Errors   MachineError, AssertionError.
@@ -30,7 +30,7 @@ GOOD_S, UPDATE_S, IMPORT_S = 600.0, 900.0, 240.0
 
 
 class Lent:
-    """A tracker, sockets and a folder for one start; `with Lent(...) as pc`. `image`: the disk before it."""
+    """A tracker, sockets and a folder for one start; `with Lent(...) as pc`. `image`: the disk before the start."""
 
     def __init__(self, image, folder, make=Appliance):
         self.folder = folder
@@ -52,7 +52,7 @@ class Lent:
 
 
 class Recorded(Appliance):
-    """The disk is served by a RecordedDisk; `folder` gets start.raw, the disk before, and writes.log."""
+    """A RecordedDisk serves the disk; `folder` gets start.raw, the disk before the start, and writes.log."""
 
     def __init__(self, image, folder, sockets, usb):
         super().__init__(image, folder, sockets, usb)
@@ -67,8 +67,8 @@ class Recorded(Appliance):
 
 
 class Session:
-    """One recorded run through everything that a kiosk keeps. Each mark in the log is a JSON object: `phase` begins one; `begun` names
-    what may be there from now on, `kept` what must."""
+    """One recorded run through everything that a kiosk keeps. Each mark in the log is a JSON object. `phase` names the phase that begins;
+    `begun` names a value that may be on the disk from then on, `kept` one that must be there."""
 
     def __init__(self, pc, work, tools, bundle, say):
         self.pc, self.work, self.tools, self.bundle, self._say = pc, work, tools, bundle, say
@@ -98,7 +98,7 @@ class Session:
         self.mark(kept="grown", value=int(self.pc.check("stat -f -c %b /data")))
 
     def write_safely(self, path, text):
-        """As programs should: the bytes synced, renamed, the folder synced."""
+        """Writes a file as programs should: syncs the bytes, renames the file, syncs the folder."""
         self.pc.write("/tmp/new", text)
         self.pc.check(f"cp /tmp/new {path}.new && sync {path}.new && mv {path}.new {path} && sync $(dirname {path})")
 
@@ -114,11 +114,11 @@ class Session:
                 self.mark(begun=what, value=number)
                 self.write_safely(path, text)
                 self.mark(kept=what, value=number)
-            # The control: in place, and nothing synced. The harness must find that this is lost.
+            # The control: a file written in place, without a sync. The harness must find that cuts lose it.
             self.mark(begun="unsafe", value=number)
             self.pc.write(UNSAFE, kept_text(number))
             self.mark(kept="unsafe", value=number)
-            self.pc.run("kill -9 $(systemctl show -P MainPID frustumscreen)")  # the watchdog writes that down
+            self.pc.run("kill -9 $(systemctl show -P MainPID frustumscreen)")  # the watchdog records this in its faults
             time.sleep(12.0)
         self.pc.wait_until_lit()
 
@@ -139,7 +139,7 @@ class Session:
         return eventually(over, timeout_s, lambda: f"nothing is told of the stick, at last {self.pc.read(REPORT)}")
 
     def take_packs(self, name, packs):
-        """`packs`: those of the stick, name -> file; each such stick makes the next set."""
+        """Imports a stick with `packs` (name -> file), which gives the next set."""
         self.mark(phase="import")
         self._sets += 1
         self.mark(begun="set", value=self._sets)
@@ -149,7 +149,7 @@ class Session:
         outcomes = [pack["outcome"] for pack in report["packs"]]
         self.mark(kept="set", value=report["set_number"], outcomes=outcomes)
         assert outcomes.count("taken") > 0, report
-        time.sleep(5.0)  # what the exhibit writes of the new set
+        time.sleep(5.0)  # until the exhibit has written its verdict on the new set
         self.pc.pull(name)
 
     def run_on(self, seconds):
@@ -175,7 +175,7 @@ class Session:
 
 
 class Tools:
-    """The programs of the host that make packs and read libraries. `programs`: their folder; `packs`: the baked ones."""
+    """The programs of the host that make packs and read libraries. `programs`: their folder; `packs`: the folder of baked packs."""
 
     def __init__(self, programs, packs, work):
         self.programs, self._packs, self._work = programs, packs, work

@@ -1,8 +1,8 @@
-"""Whether a disk that a cut has left is a kiosk that starts at once and has kept what it must: held against Debian's own tools, sfdisk's
-rules, fsck.vfat, mtools, veritysetup, e2fsck and debugfs, without starting it.
+"""Checks, without starting it, whether a disk that a cut has left is a kiosk that starts at once and has kept all acknowledged data.
+It uses sfdisk's rules and Debian's own tools: fsck.vfat, mtools, veritysetup, e2fsck and debugfs.
 
 Threads  one caller.
-Errors   a fault of the disk is a sentence in what `look` returns; whatever else is wrong raises.
+Errors   a fault of the disk is a sentence in the result of `look`; any other error raises.
 """
 
 import hashlib
@@ -29,7 +29,7 @@ def _run(*words, **options):
 
 
 def kept_text(number):
-    """A stand-in for a calibration: its words show whether it is complete."""
+    """The text of a file that stands for a calibration; its words show whether it is complete."""
     return "".join(f"{number} {line}\n" for line in range(400)) + f"end {number}\n"
 
 
@@ -43,7 +43,7 @@ def kept_number(text):
 
 
 def _table(disk, place, sectors):
-    """{name: (place, length)} of a GPT whose header is at this sector; None: header or entries are not what their checksums are of."""
+    """{name: (place, length)} of a GPT whose header is at this sector; None: a checksum of header or entries does not match."""
     disk.seek(place * SECTOR)
     header = disk.read(SECTOR)
     if header[:8] != b"EFI PART":
@@ -67,8 +67,8 @@ def _table(disk, place, sectors):
 
 
 def partitions(path, size):
-    """(partitions, which table). The second table, at the disk's end, is read by the firmware always, and by Linux if its command
-    line says `gpt`."""
+    """(partitions, which table). If the first table is damaged, the firmware always reads the second one, at the disk's end, and Linux does
+    so if its command line has `gpt`."""
     with open(path, "rb") as disk:
         first = _table(disk, 1, size // SECTOR)
         if first is not None:
@@ -81,11 +81,11 @@ def partitions(path, size):
 
 @dataclass
 class Version:
-    """One version of the system: its kernel image's bytes, and how its root is found."""
+    """One version of the system: the hash of its kernel image, and the data by which its root is found."""
 
     name: str
     sha256: str
-    words: dict  # of the command line, behind `frustumscreen.`
+    words: dict  # values of the command line whose names begin with `frustumscreen.`
     reads_second_table: bool
 
     @staticmethod
@@ -101,7 +101,7 @@ class State:
     """The findings."""
 
     faults: list = field(default_factory=list)
-    notes: set = field(default_factory=set)  # what is no fault: which repairs there were
+    notes: set = field(default_factory=set)  # findings that are no faults, such as repairs
     version: str = ""
     kernel: pathlib.Path = None
     e2fsck_s: float = 0.0
@@ -125,7 +125,7 @@ def _read(path):
 
 
 class Checker:
-    """`folder`: for its own files; `versions`: those that may be on the disk; `tools`: kiosk.Tools; `image`: the disk as it was built."""
+    """`folder`: for its own files; `versions`: those that may be on the disk; `tools`: kiosk.Tools; `image`: the disk as built."""
 
     def __init__(self, folder, versions, tools, image, size):
         self.folder, self._tools, self._size = folder, tools, size
@@ -154,7 +154,7 @@ class Checker:
         return hashlib.sha256(done.stdout).hexdigest() if done.returncode == 0 else None
 
     def look(self, disk, generation, must):
-        """`generation`: of the slots' contents (Replay); `must`: a Must of what was acknowledged before the cut."""
+        """`generation`: that of the slots' contents (Replay); `must`: the data that were acknowledged before the cut."""
         state = State()
         found, table = partitions(disk, self._size)
         if not found or {ESP, SLOT_A, SLOT_B, DATA} - found.keys():
@@ -194,7 +194,7 @@ class Checker:
             data = state.kernel.read_bytes() if state.kernel.exists() else b"unreadable"
             if data:
                 break
-            state.notes.add("empty kernel image")  # systemd-boot passes over what has no sections
+            state.notes.add("empty kernel image")  # systemd-boot ignores a file without sections
         else:
             state.faults.append(f"there is no kernel image, of {names}")
             state.kernel = None
@@ -301,7 +301,7 @@ class Checker:
 
 
 def _saved_number(text):
-    """Number of the museum's settings; 0: as shipped."""
+    """The number of the museum's settings; 0: the shipped ones; None: incomplete."""
     found = re.search(r"# saved (\d+)\n$", text)
     if found:
         return int(found[1])
@@ -309,8 +309,8 @@ def _saved_number(text):
 
 
 def _has_memory(data):
-    """Two slots in turn, each a line with a checksum (app/watch/ladder_memory.h): one is whole, or none ever was. The first write
-    goes to the second slot, and until that is on the disk the first one is blank."""
+    """Whether the watchdog's memory is whole. Writes alternate between two slots, each a line with a checksum (app/watch/ladder_memory.h).
+    One slot must be whole, except before the first write is on the disk: it goes to the second slot, and the first slot is still blank."""
     def is_whole(slot):
         found = re.fullmatch(rb"frustumscreen-ladder-2 ([0-9a-f]{16}) ((?:-?\d+ )+) *\n", slot)
         checksum = 0xCBF29CE484222325  # FNV-1a
@@ -323,13 +323,13 @@ def _has_memory(data):
 
 
 def _are_lines(data):
-    """Lines of 256 bytes, each with its number (app/programs/watchdog/fault_book.h)."""
+    """Whether the data are lines of 256 bytes, each with its number (app/programs/watchdog/fault_book.h)."""
     lines = [data[at:at + 256] for at in range(0, len(data), 256)]
     return all(re.fullmatch(rb"%d [^\0\n]*\n" % (number + 1), line) and len(line) == 256 for number, line in enumerate(lines))
 
 
 class Must:
-    """The marks of a log. `least`: the last write that was acknowledged; `most`: the last one that began."""
+    """The marks of a log. `least`: value of the last write that was acknowledged; `most`: value of the last write that began."""
 
     def __init__(self):
         self.phase, self.least, self.most = "", {}, {}

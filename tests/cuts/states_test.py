@@ -1,4 +1,4 @@
-"""The checks of a disk after a power cut: a made-up kiosk's disk is sound, and each damage to it is found."""
+"""Tests the checks of a disk after a power cut: a small kiosk's disk is sound, and each damage to it is found."""
 
 import pathlib
 import shutil
@@ -25,7 +25,7 @@ def run(*words, **options):
 
 
 def slot(path, letter):
-    """A root of four blocks with its hashes behind it; returns what a kernel image's command line says of it."""
+    """Makes a root of four blocks followed by its hashes; returns the command line of a kernel image for it."""
     path.write_bytes(letter * 4096 * 4)
     said = run("veritysetup", "format", path, path, "--data-blocks=4", "--hash-offset=16384", "--salt=" + "ab" * 32)
     root_hash = said.partition("Root hash:")[2].split()[0]
@@ -164,7 +164,7 @@ class States(unittest.TestCase):
         self.assertIn("e2fsck -y needed", state.notes)
 
     def test_damage_that_a_clean_mark_hides(self):
-        """All is looked at, so it is found and mended; e2fsck -p alone looks no further than the mark."""
+        """With -f the whole file system is checked, so the damage is found and repaired; e2fsck -p alone trusts the mark "clean"."""
         said = run("dumpe2fs", self.folder / "data")
         block = int(said.partition("Inode bitmap at ")[2].split()[0])
         self.put(self.disk, DATA, b"\x12\x34", 4096 * block + 100)
@@ -212,7 +212,7 @@ class States(unittest.TestCase):
         self.assert_fault("the machine-id was")
 
     def test_watchdog(self):
-        """With a line that frustumscreen-watchdog has written."""
+        """Tests with a line that frustumscreen-watchdog has written."""
         slot = (b"frustumscreen-ladder-2 a860832fbef0bb75 2 2089103435194244904 236287 236187 0 1 0 1 0 2 0 236187" + b" -1" * 12 +
                 b" ").ljust(4095) + b"\n"
         blank = b" " * 4096

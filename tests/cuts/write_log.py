@@ -1,13 +1,13 @@
 """A disk's commands in order, and its possible contents if the power fails at any moment.
 
-A machine runs once on a RecordedDisk, which keeps each write and each flush. A Replay goes through that log and makes, for a moment
-and a seed, a disk as a volatile write cache may leave it: all that was flushed is there; of what was not, chance says for each piece
-whether it arrived. The method is that of Linux's dm-log-writes and of CrashMonkey (Mohan and others, OSDI 2018).
+A machine runs once on a RecordedDisk, which records each write and each flush. A Replay goes through that log and makes, for a moment
+and a seed, a disk as a volatile write cache may leave it: all flushed data are there; each piece of the other data is there or not, at
+random. The method is that of Linux's dm-log-writes and of CrashMonkey (Mohan and others, OSDI 2018).
 
-Bytes    a log: records of RECORD, behind it the data of a write, or the words of a mark.
-Units    bytes; seconds since the recording began where the name says so.
+Bytes    a log: records of RECORD, each followed by the data of a write or the words of a mark.
+Units    bytes; names with _s: seconds since the recording began.
 Threads  RecordedDisk: `mark` from any. Replay: one caller.
-Errors   OSError; AssertionError for a log that is none.
+Errors   OSError; AssertionError if the file is no log.
 """
 
 import collections
@@ -30,7 +30,7 @@ WRITE, FLUSH, MARK = 1, 2, 3
 
 
 class RecordedDisk(nbd.Server):
-    """Serves the file `disk`, writes into it, and keeps in `log` what was done."""
+    """Serves the file `disk`, writes into it, and records writes and flushes in `log`."""
 
     def __init__(self, path, disk, log):
         self._disk = os.open(disk, os.O_RDWR)
@@ -80,7 +80,7 @@ class Entry:
 
 
 def entries(log):
-    """The records of an open log, without a last one that is cut off."""
+    """The records of an open log, without an incomplete last one."""
     found, at, size = [], 0, os.fstat(log.fileno()).st_size
     while at + RECORD.size <= size:
         kind, through, place, length, at_s = RECORD.unpack(os.pread(log.fileno(), RECORD.size, at))
@@ -97,8 +97,8 @@ def sparse_copy(source, target):
 
 
 class Replay:
-    """`disk`: a file for the replay's own, made of `image`, the disk before the log. `heeds_flushes`: without it every flush and FUA is
-    passed over, as by a disk that lies: the control, which must find damage."""
+    """`disk`: a file of the replay's own, made from `image`, the disk before the log. `heeds_flushes`: False ignores every flush and FUA,
+    as a faulty disk does; this is the control, in which damage must be found."""
 
     def __init__(self, image, log, disk, heeds_flushes=True):
         sparse_copy(image, disk)
@@ -106,8 +106,8 @@ class Replay:
         self._log = open(log, "rb")
         self.path, self.entries, self.at = disk, entries(self._log), 0
         self._heeds = heeds_flushes
-        self._unflushed = []  # entries, the oldest first; those with FUA have arrived in any case
-        self.generation = {}  # of each place that `watch` names: changes with what was flushed there
+        self._unflushed = []  # entries, the oldest first; those with FUA are on the disk in any case
+        self.generation = {}  # for each name of `watch`: a number that changes when data reach that place
         self._watched = {}
 
     def close(self):
@@ -115,7 +115,7 @@ class Replay:
         self._log.close()
 
     def watch(self, name, place, length):
-        """`generation[name]` changes whenever something lands there."""
+        """Lets `generation[name]` change whenever data reach this place of the disk."""
         self._watched[name], self.generation[name] = (place, place + length), 0
 
     def _data(self, entry):
@@ -131,7 +131,7 @@ class Replay:
         return entry.words(self._log)
 
     def advance(self, to):
-        """To the moment before record `to`."""
+        """Advances to the moment before record `to`."""
         assert to >= self.at
         while self.at < to:
             entry = self.entries[self.at]
@@ -147,8 +147,8 @@ class Replay:
         return sum(entry.length for entry in self._unflushed)
 
     def _survivors(self, chance):
-        """(place, data) of what arrived of what was not flushed, in the order of the writes. A disk may write sectors in any order, whole
-        pages, whole commands, or stop at a moment."""
+        """(place, data) of the unflushed pieces that reached the disk, in the order of the writes. A disk may write sectors in any order,
+        whole pages, whole commands, or everything up to some moment."""
         piece = chance.choice((SECTOR, SECTOR, 4096, None))
         share = chance.choice((0.0, 0.1, 0.5, 0.5, 0.9, 1.0))
         in_order = chance.random() < 0.2
@@ -171,7 +171,7 @@ class Replay:
                 begin = end
 
     def cut(self, chance):
-        """The power fails now: `path` holds one of the disks that this may leave, until `mend`."""
+        """Cuts the power: until `mend`, `path` holds one of the disks that this may leave."""
         self._before = []
         generation = dict(self.generation)
         for place, data in self._survivors(chance):
@@ -180,7 +180,7 @@ class Replay:
         self._generation = generation
 
     def mend(self):
-        """Back to before `cut`."""
+        """Restores the disk as it was before `cut`."""
         for place, data in reversed(self._before):
             os.pwrite(self._file, data, place)
         for name, before in self._generation.items():
@@ -188,14 +188,14 @@ class Replay:
                 self.generation[name] += 1
 
     def keep(self, path):
-        """A copy of the disk as it is now."""
+        """Copies the present disk to `path`."""
         sparse_copy(self.path, path)
 
 
 def moments(log, count, chance, data):
-    """`count` moments for each phase: [(record, phase, seed)], in the log's order. A flush is taken at random, then a write before it, so
-    that a long copy between two flushes does not hide everything else. Every second time it is one before which something was written
-    outside the data partition, if there is one: such are few, and most depends on them. `log`: a Replay; `data`: (begin, end) of it."""
+    """`count` moments for each phase: [(record, phase, seed)], in the log's order. It chooses a flush at random, then a write before it, so
+    that a long copy between two flushes does not get most of the moments. Every second flush follows writes outside the data partition, if
+    there are any: these are few and the most important. `log`: a Replay; `data`: (begin, end) of the data partition."""
     intervals, outside, phase, begin = collections.defaultdict(list), collections.defaultdict(list), "", 0
     for number, entry in enumerate(log.entries):
         if entry.kind in (FLUSH, MARK):
@@ -210,7 +210,7 @@ def moments(log, count, chance, data):
     for phase in sorted(intervals):
         for number in range(count if phase else 0):
             begin, end = chance.choice(outside[phase] if number % 2 and outside[phase] else intervals[phase])
-            at = end if chance.random() < 0.5 else chance.randrange(begin, end) + 1  # at the end most is at stake
+            at = end if chance.random() < 0.5 else chance.randrange(begin, end) + 1  # at the end most data are unflushed
             chosen.append((at, phase, chance.getrandbits(64)))
     return sorted(chosen)
 

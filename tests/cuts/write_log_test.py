@@ -1,4 +1,4 @@
-"""The log of a disk's writes and what is made of it: against examples made by hand, and against writers that are safe and that are not."""
+"""Tests the log of a disk's writes and its replay, on examples made by hand and with safe and unsafe writers."""
 
 import pathlib
 import random
@@ -33,7 +33,7 @@ class Recorded(unittest.TestCase):
         disk.stop()
 
     def left(self, at, heeds_flushes=True):
-        """All disks that cuts before record `at` leave: one letter for each sector, or the sector where it is not of one letter."""
+        """All disks that cuts before record `at` leave: one letter for each sector, or the whole sector if it has different letters."""
         replay = Replay(self.image, self.log, self.folder / "now", heeds_flushes)
         replay.advance(at)
         found = set()
@@ -86,7 +86,7 @@ class Log(Recorded):
         self.assertGreater(len(found), 30)
 
     def test_moments(self):
-        """As many cuts of each phase as requested, none outside it, half of them where writes are few; a seed repeats them."""
+        """Each phase has as many cuts as requested, all within it, half of them at the few writes outside the data; a seed repeats them."""
         def machine(client, disk):
             for phase in ("one", "two"):
                 disk.mark('{"phase": "%s"}' % phase)
@@ -122,8 +122,8 @@ class Log(Recorded):
 
 
 class Writers(Recorded):
-    """Each puts a record of two sectors on the disk, again and again, and says when it is kept. The first sector says where the newest
-    is."""
+    """Writers that repeatedly put a record of two sectors on the disk, and mark when it is kept. The first sector of the disk has the place
+    of the newest record."""
 
     def keep(self, flushes_data, flushes_name):
         def machine(client, disk):
@@ -140,7 +140,7 @@ class Writers(Recorded):
         self.record(machine)
 
     def damage(self, heeds_flushes=True):
-        """(torn, lost): in how many of the disks that cuts leave the newest record is not whole, or older than what was kept."""
+        """(torn, lost): on how many of the disks that cuts leave the newest record is incomplete, and on how many it is older than kept."""
         replay = Replay(self.image, self.log, self.folder / "now", heeds_flushes)
         torn = lost = 0
         kept = ""
@@ -182,7 +182,7 @@ class Writers(Recorded):
 
 
 class Table(unittest.TestCase):
-    """The partition table's reader, held against sfdisk, which writes it."""
+    """Compares the reader of partition tables with sfdisk, which writes them."""
 
     def test_damaged(self):
         with tempfile.TemporaryDirectory() as folder:

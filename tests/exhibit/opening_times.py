@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Writes when something is open, in seconds since 1970: opening_times.py ZONE 10:00-18:00[,...] YEAR YEARS
+"""Prints the times at which something is open, in seconds since 1970: opening_times.py ZONE 10:00-18:00[,...] YEAR YEARS
 
-Each second of the local calendar is found among the seconds of UTC, with nothing but zoneinfo's way from UTC to local time: a
-span begins with the first second whose local time is not before its opening, and ends after the last one before its closing.
+It uses only zoneinfo's conversion from UTC to local time, and searches the seconds of UTC: a span begins with the first second whose local
+time is not before the opening, and ends after the last second whose local time is before the closing.
 """
 
 import bisect
@@ -16,7 +16,7 @@ UTC = datetime.timezone.utc
 
 
 def local_of(zone, second):
-    """Local time as if it were UTC, in seconds."""
+    """Local time in seconds, computed as if the local clock showed UTC."""
     there = datetime.datetime.fromtimestamp(second, UTC).astimezone(zone)
     return second + int(there.utcoffset().total_seconds())
 
@@ -27,13 +27,13 @@ class Zone:
         self.local = {}
 
     def at(self, second):
-        """Local time at a whole minute, kept: today's zones change at whole minutes."""
+        """Local time at a whole minute, cached; the zones of our time change only at whole minutes."""
         if second not in self.local:
             self.local[second] = local_of(self.zone, second)
         return self.local[second]
 
     def edge(self, local, closes):
-        """Where the offset changes nearby, by looking at every quarter of an hour."""
+        """The times nearby at which the offset changes, searched in steps of a quarter of an hour."""
         offset = self.at(local - REACH_S) - (local - REACH_S)
         if self.at(local + REACH_S) - (local + REACH_S) == offset:
             return local - offset
@@ -60,7 +60,7 @@ def main():
         for opens, closes in sorted(spans(times, day_s)):
             begin, end = zone.edge(opens, False), zone.edge(closes, True)
             if opened and begin <= opened[-1][1]:
-                opened[-1][1] = max(end, opened[-1][1])  # what touches is one
+                opened[-1][1] = max(end, opened[-1][1])  # adjacent spans are one
             elif begin < end:
                 opened.append([begin, end])
     for begin, end in opened:

@@ -1,18 +1,20 @@
 #!/usr/bin/python3
-"""Looks for tests that fail now and then; `./test flakes` calls this. Exit status 1: something failed.
+"""Finds flaky tests, those that fail now and then; `./test flakes` calls this. Exit status 1: something failed.
 
-Each test of `ctest` passes 20 runs beside six busy loops, three tests at a time, and five runs under each sanitizer that continuous
-integration has it under; then the emulated machines start five times (./test hil, ./test image), and all of continuous integration runs
-three times. out/flakes remembers what has passed, run by run, and a
-hunt that was ended goes on there. The emulated machines and continuous integration begin anew with another commit, or with another
-change of the working tree. A test of ctest begins anew when its inputs change, which one more run, under strace, tells (inputs.py).
-A new commit also starts the tests again that ask git, or that cannot run under strace, as with a sanitizer. Tests that never passed all their runs come
-first, and among these the ones with threads.
+Each test of `ctest` must pass 20 runs while six busy loops load the machine, three tests at a time, and five runs under each sanitizer
+that continuous integration uses for it. Then the emulated machines run five times (./test hil, ./test image), and the whole of continuous
+integration three times.
 
-Left out are tests that compute and do nothing else: how busy the machine is cannot change their result. The label 'computes' says so of
-tests whose threads only share out arithmetic. The run under strace finds the others: a program of the build that is one process and
-one thread from its start to its end, without a wait, a socket, a lock, a timer or a file of /proc or /sys. Nor may its
-disassembly have a call of a clock or of random numbers, apart from GoogleTest's, since strace does not see how a clock is read.
+out/flakes keeps a record of each run that passed, so a hunt that was stopped is continued. The runs of the emulated machines and of
+continuous integration start again from zero with another commit or another change of the working tree. A test of ctest starts again when
+one of its inputs changes; one additional run under strace records the inputs (inputs.py). A test that asks git, or that cannot run under
+strace, as with a sanitizer, also starts again with each new commit. Tests that have never passed all their runs come first, and of these
+the tests with threads.
+
+The hunt skips tests that only compute, because the load of the machine cannot change their result. The label 'computes' marks such tests
+with threads. The run under strace finds the others: the test is a program of the build that has one process and one thread from start to
+end, and uses no wait, socket, lock, timer, and no file of /proc or /sys. Its disassembly must also have no call of a clock or of random
+numbers outside GoogleTest, because strace does not see reads of a clock.
 """
 
 import argparse
@@ -31,7 +33,7 @@ from inputs import Places
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(os.fspath(ROOT / "tests" / "hil"))
-from repeat import Load  # noqa: E402  (the folder is only now known)
+from repeat import Load  # noqa: E402  (found only by the path above)
 
 STATE = ROOT / "out" / "flakes"
 SANITIZERS = {"asan": "outside", "tsan": "threads"}  # preset -> label of the tests that ./test runs with it
@@ -42,7 +44,7 @@ def output_of(*command):
 
 
 def commit():
-    """A name for this commit and this working tree."""
+    """A name that identifies this commit and the changes of the working tree."""
     changes = output_of("git", "diff", "HEAD") + output_of("git", "ls-files", "--others", "--exclude-standard")
     name = output_of("git", "rev-parse", "--short", "HEAD").decode().strip()
     if changes:
@@ -51,14 +53,14 @@ def commit():
 
 
 def environment(preset):
-    """What CMakePresets.json sets for the tests of a preset."""
+    """The environment variables that CMakePresets.json sets for the tests of a preset."""
     presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["testPresets"]
     found, = (entry for entry in presets if entry["name"] == preset)
     return {name: value.replace("${sourceDir}", os.fspath(ROOT)) for name, value in found["environment"].items()}
 
 
 class Runs:
-    """The runs of a commit that passed, one name a line, and the outputs of those that failed."""
+    """The names of a commit's runs that passed, one a line in a file, and the outputs of the runs that failed."""
 
     def __init__(self, folder):
         self._folder = folder
@@ -110,8 +112,8 @@ def main():
     parser.add_argument("--ci", metavar="N", type=int, default=3, help="runs of .ci/run (3)")
     arguments = parser.parse_args()
 
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))  # ends the busy loops, too
-    print(f"== what passed is remembered in {STATE.relative_to(ROOT)}", flush=True)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))  # an exception, which also ends the busy loops
+    print(f"== runs that passed are recorded in {STATE.relative_to(ROOT)}", flush=True)
     git = output_of("git", "rev-parse", "--path-format=absolute", "--git-common-dir").decode().strip()
     places = Places(ROOT, ROOT / "build" / "release", ROOT.parent / "shared", git)
     hunt = Hunt(places, STATE / "tests", commit(), arguments.times)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a hunt for flaky tests remembers, on made-up tests of a made-up repository, which count their own runs."""
+"""Tests what a hunt for flaky tests remembers, with artificial tests in an artificial repository; these tests count their own runs."""
 
 import contextlib
 import io

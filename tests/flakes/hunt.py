@@ -1,5 +1,5 @@
-"""The tests of ctest, each until it has passed so many times with the same inputs. A record for each test remembers them, and each
-run that passed."""
+"""Runs each test of ctest until it has passed a number of times with the same inputs. A record for each test keeps its inputs and the
+number of runs that passed."""
 
 import dataclasses
 import json
@@ -16,21 +16,21 @@ import inputs
 @dataclasses.dataclass
 class Test:
     name: str
-    command: list  # with '$root' and '$build' for these folders
+    command: list  # words, in which '$root' and '$build' stand for these folders
     labels: list
 
 
 @dataclasses.dataclass
 class Record:
-    """`files`: name -> [way, digest], of inputs.Digests. `commit`: the repository's state; set where the files do not tell all."""
+    """`files`: name -> [way, digest], from inputs.Digests. `commit`: the repository's state, if the files are not all inputs; else None."""
 
     command: list
     files: dict
     commit: str | None
     only_computes: bool
-    passed: int = 0  # runs with these inputs
-    completed: bool = False  # it once passed all runs, perhaps with other inputs
-    seconds: float = 0.0  # of its last run
+    passed: int = 0  # runs that passed with these inputs
+    completed: bool = False  # it has once passed all runs, perhaps with other inputs
+    seconds: float = 0.0  # time of the last run
 
 
 def tests_of(places):
@@ -43,8 +43,8 @@ def tests_of(places):
 
 
 class Hunt:
-    """`folder`: where the records are. `commit`: a name for the repository's state. `sanitizer`: the environment of a build with one. Such
-    a build cannot run under strace, so its records are of one commit."""
+    """`folder`: the records' folder. `commit`: a name for the repository's state. `sanitizer`: the environment for a build with a
+    sanitizer. Such a build cannot run under strace, so its records are valid for one commit only."""
 
     def __init__(self, places, folder, commit, times, sanitizer=None):
         self._places, self._folder, self._commit, self._times = places, pathlib.Path(folder), commit, times
@@ -54,15 +54,15 @@ class Hunt:
         self._lock = threading.Lock()
         self._ended = threading.Event()
         self.failed = []
-        self.untraced = []  # remembered by commit
-        self.only_compute = []  # found by a trace
+        self.untraced = []  # tests whose records are valid for this commit only
+        self.only_compute = []  # tests whose trace shows that they only compute
 
     def end(self):
-        """No further run begins."""
+        """Lets no further run begin."""
         self._ended.set()
 
     def waiting(self, tests):
-        """Those that still have to run: first the ones that never passed all their runs, of these first the ones that have threads."""
+        """The tests that still have to run: first those that have never passed all their runs, and of these first those with threads."""
         found = []
         for test in tests:
             record = self._read(test)
@@ -109,7 +109,7 @@ class Hunt:
         return self._digests.changed(record.files)
 
     def _traced(self, test, completed):
-        """A new record. The run does not count: strace makes everything slower."""
+        """A new record, from a run under strace. This run does not count, because strace makes everything slower."""
         if self._sanitizer is not None:
             return Record(test.command, {}, self._commit, False, completed=completed)
         with tempfile.TemporaryDirectory(prefix="flakes.") as folder:
@@ -131,7 +131,7 @@ class Hunt:
         return record
 
     def _run(self, test, record, under=None):
-        """What a failed run printed, or nothing."""
+        """The output of a run that failed; empty if it passed."""
         environment = dict(os.environ, **(self._sanitizer or {}), **({"FRUSTUMSCREEN_UNDER": under} if under else {}))
         begun = time.monotonic()
         ran = subprocess.run(["ctest", "--test-dir", self._places.build, "--tests-regex", f"^{test.name}$", "--no-tests=error",
@@ -149,7 +149,7 @@ class Hunt:
     def _write(self, test, record):
         new = self._file(test).with_suffix(".new")
         new.write_text(json.dumps(dataclasses.asdict(record), indent=1), encoding="utf-8")
-        new.replace(self._file(test))  # a hunt that is ended now keeps the old record
+        new.replace(self._file(test))  # if the hunt is ended before this, the old record stays
 
     def _keep(self, name, output):
         log = self._folder / f"{name.replace(' ', '_')}.log"

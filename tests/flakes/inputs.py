@@ -1,9 +1,9 @@
-"""What decides a test's result: the files that it used in one run under strace, and what they hold now.
+"""The inputs of a test: the files that it used in one run under strace, and a digest of each.
 
-Files are those of the repository, of its build folder and of ../shared. A file that was opened counts by its bytes, a folder by the
-names in it. A program that was only started counts without what debuggers read, so that a comment that moves lines changes nothing. A path
-that was only looked for counts by whether it is there. What the test wrote itself does not count, nor do the system's files: another
-Mesa starts no test anew.
+Inputs are files of the repository, of its build folder and of ../shared. The digest of an opened file is that of its bytes; of a folder, of
+the names in it; of a program that was only started, of its bytes without debug information, so that a comment that moves lines changes
+nothing; of a path that was only searched for, whether it exists. Files that the test has written itself are no inputs. Neither are the
+system's files, so a new version of Mesa starts no test again.
 """
 
 import hashlib
@@ -13,10 +13,10 @@ import re
 import subprocess
 import tempfile
 
-SEEN, RAN, READ = 1, 2, 3  # how a test used a path; the larger one counts
+SEEN, RAN, READ = 1, 2, 3  # how a test used a path: searched for, started, opened; the largest counts
 
 FILES = "open,openat,openat2,execve,execveat,stat,lstat,newfstatat,statx,access,faccessat,faccessat2"
-# What a test asks for whose result can depend on when it runs: another process or thread, a wait, a connection, a clock, memory in use.
+# The calls of a test whose result can depend on when it runs: another process or thread, a wait, a connection, a clock, memory in use.
 TIMING = ("clone,clone3,fork,vfork,nanosleep,clock_nanosleep,poll,ppoll,select,pselect6,epoll_wait,epoll_pwait,epoll_pwait2,pause,"
           "rt_sigtimedwait,timerfd_create,timer_create,setitimer,alarm,socket,socketpair,flock,inotify_init,inotify_init1,"
           "clock_gettime,gettimeofday,time,times,getrusage")
@@ -36,7 +36,7 @@ CLOCK = re.compile(r"<(?:_ZNSt6chrono3_V2\d+\w+_clock3nowEv|_ZNSt13random_device
 
 
 class Places:
-    """The folders whose files count."""
+    """The folders whose files are inputs."""
 
     def __init__(self, root, build, shared, git):
         self.root, self.build = (os.path.realpath(folder) for folder in (root, build))
@@ -66,7 +66,7 @@ def unescaped(text):
 
 
 def calls(lines):
-    """The calls of a trace as (process, name, the text behind the bracket), each whole."""
+    """The calls of a trace as (process, name, the text after the bracket); a call that the trace splits into two lines is joined."""
     begun = {}
     for line in lines:
         line = line.rstrip("\n")
@@ -82,12 +82,12 @@ def calls(lines):
             else:
                 yield process, name, text
     for process, (name, text) in begun.items():
-        yield process, name, text  # it ended within the call
+        yield process, name, text  # the process ended within the call
 
 
 class Trace:
-    """`used`: path -> SEEN, RAN or READ. `asks_git`: it asked git for what is in the repository. `program`: what was started first.
-    `timing`: the first call that can depend on when the test runs, or none."""
+    """`used`: path -> SEEN, RAN or READ. `asks_git`: the test asked git about the repository. `program`: the first program that was
+    started. `timing`: the first call whose result can depend on when the test runs, or None."""
 
     def __init__(self, lines, places):
         self.used, self.asks_git, self.program, self.timing = {}, False, None, None
@@ -128,12 +128,12 @@ class Trace:
         if os.path.isabs(path):
             self._use(path, way)
         else:
-            # Nearly execve alone is traced without its folder; the loader's first call after it names the folder.
+            # Almost only execve is traced without its folder; the loader's first call after it names the folder.
             self._relative.setdefault(process, []).append((path, way))
 
     def _use(self, path, way):
         path = os.path.normpath(path)
-        if "/__pycache__" in path:  # Python made these from the source, which it only looks at then
+        if "/__pycache__" in path:  # made by Python from the source, which Python then only stats
             folder, _, name = path.partition("/__pycache__")
             if way != READ or not name.endswith(".pyc"):
                 return
@@ -144,12 +144,12 @@ class Trace:
 
 
 def only_computes(trace, places):
-    """A program of the build folder that is alone from its start to its end, waits for nothing, and leaves clocks to GoogleTest."""
+    """Whether the test is a program of the build folder with one process and one thread, without a wait, and without reads of a clock."""
     return trace.timing is None and trace.program is not None and is_in(trace.program, places.build) and not reads_clock(trace.program)
 
 
 def reads_clock(program):
-    """Whether a function in it, GoogleTest's apart, calls a clock, which strace does not see. Clocks in shared libraries do not count."""
+    """Whether a function of the program, except GoogleTest's, reads a clock, which strace does not see. Shared libraries are ignored."""
     with subprocess.Popen(["objdump", "--disassemble", "--no-show-raw-insn", program], stdout=subprocess.PIPE, text=True) as disassembly:
         function, found = "", False
         for line in disassembly.stdout:
@@ -163,7 +163,7 @@ def reads_clock(program):
 
 
 class Digests:
-    """What paths hold now; each is read once."""
+    """The present digests of paths; each path is read once."""
 
     def __init__(self, places):
         self._places = places
@@ -179,7 +179,7 @@ class Digests:
         return {name: [way, self.of(name, way)] for name, way in sorted(ways.items())}
 
     def changed(self, files):
-        """The first of `files`, as from of_all(), that is not the same now; or none."""
+        """The name of the first of `files`, a result of of_all(), whose digest has changed; None if none has."""
         return next((name for name, (way, then) in files.items() if self.of(name, way) != then), None)
 
 
@@ -196,7 +196,7 @@ def digest(path, way):
 
 
 def without_debug_information(program):
-    """The linker's build id goes, too: it is a hash of all the rest."""
+    """The program's bytes without debug information, and without the linker's build id, which is a hash of everything else."""
     with tempfile.NamedTemporaryFile() as file:
         subprocess.run(["objcopy", "--strip-debug", "--remove-section=.note.gnu.build-id", program, file.name], check=True)
         return pathlib.Path(file.name).read_bytes()

@@ -3,8 +3,8 @@
 #
 #   tests/fuzz/fuzz.sh SECONDS [TARGET...]
 #
-# It begins with tests/fuzz/corpus/TARGET and keeps new inputs in out/fuzz/TARGET/corpus. An input that breaks
-# a promise stays as out/fuzz/TARGET/crash-*, beside the log; the last lines of the output name it.
+# It begins with tests/fuzz/corpus/TARGET and keeps new inputs in out/fuzz/TARGET/corpus. An input that makes a
+# target fail stays as out/fuzz/TARGET/crash-*, beside the log; the last lines of the output name it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Takes from out/fuzz the few small inputs that, together with the corpora's named ones, reach the most code.
+# Takes from out/fuzz the few small inputs that, together with the named files of the corpora, reach the most code.
 #
 #   tests/fuzz/keep_found.sh [TARGET...]     after ./test fuzz
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-most=32 # for each target; the merge writes those that reach most first
+most=32 # inputs for each target; the merge writes those that reach the most code first
 found_name='*/[0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f]*'
 
 targets=("$@")

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Bakes the two artifacts that the guest shows, one of them for a cube in the hand too, and the words that it says, in two languages: few triangles, small images, in
-# seconds.
+# Bakes the two artifacts that the guest shows (one of them for a cube in the hand too), and the exhibit's own words in two languages.
+# With few triangles and small images this takes seconds.
 #
-#   bake_packs.sh BIN FOLDER    BIN: where our programs are; a file newer than they and this script stays
+#   bake_packs.sh BIN FOLDER    BIN: the folder of our programs; a file that is newer than the programs and this script is kept
 set -euo pipefail
 bin=$1 folder=$2
 mkdir -p "$folder"
@@ -18,7 +18,7 @@ stays() { # FILE PROGRAM...
 words=$folder/words.fswords
 baking=
 if ! stays "$words" "$bin/frustumscreen-bake"; then
-    "$bin/frustumscreen-bake" --words --languages en,de -o "$words" & # one core's work, beside the packs
+    "$bin/frustumscreen-bake" --words --languages en,de -o "$words" & # it uses one core, while the packs are baked
     baking=$!
 fi
 bake() { # ARTIFACT PACK OPTION...

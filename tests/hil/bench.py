@@ -1,6 +1,6 @@
-"""The test bench: the emulated kiosk, the mocked devices at its USB ports, and what a test asks of them.
+"""The test bench: the emulated kiosk, the mocked devices at its USB ports, and the functions that tests call.
 
-Frame    poses are of the table; pixels of the picture, the top left pixel's centre at (0.5, 0.5).
+Frame    poses: table; pixels: the picture, the top left pixel's centre at (0.5, 0.5).
 Time     time-outs: seconds that the host granted the guest (Machine.granted_s), multiplied by how slow the guest is.
 Threads  one caller.
 """
@@ -35,11 +35,11 @@ CUBE_ARTIFACT = "amphora-cube"
 CUBE = '\n[prop]\nkind = "cube"\nbase_m = 0.12\nzone = "hand"\n'
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 EYE_M = (0.0, -0.55, 0.50)
-PLACE_TOLERANCE_M = 0.0005  # presented poses are filtered: they come to rest this near to those that were sent
+PLACE_TOLERANCE_M = 0.0005  # presented poses are filtered, and come to rest within this distance of those that were sent
 TURN_TOLERANCE = math.radians(0.2)
 OTHER_TRACKERS = ("patriot", "hid")  # besides the VIPER that most tests use; unplugged until a test needs them
-MAX_RESTS = 4  # of 50 ms, between two questions
-RELEASED_S = 1.0  # for a button that was released, to be seen
+MAX_RESTS = 4  # pauses of 50 ms between two evaluations of a condition
+RELEASED_S = 1.0  # after which the exhibit has noticed that a button was released
 
 
 class Mock:
@@ -66,7 +66,7 @@ class Mock:
 
 
 class Patience:
-    """The time to wait, in time that the host granted the guest; longer if the guest started slowly."""
+    """How long tests wait: in time that the host granted the guest, and longer if the guest started slowly."""
 
     usual_start_s = 30.0
     factor = 1.0
@@ -74,8 +74,9 @@ class Patience:
 
 
 def eventually(condition, timeout_s, otherwise):
-    """Waits until `condition()` is true and returns what it returned; else AssertionError with a sentence. Asks seldom after a while: a
-    seventh of what the machine did was to answer. Its clock is read every 50 ms all the same (Machine.given)."""
+    """Waits until `condition()` is true and returns its result; after the time-out raises AssertionError with a sentence. The pauses
+    between two evaluations grow, because frequent queries took a seventh of the machine's time. Its clock is still read every 50 ms
+    (Machine.given)."""
     timeout_s *= Patience.factor
     deadline = Patience.clock() + timeout_s
     rests = 1
@@ -92,7 +93,7 @@ def eventually(condition, timeout_s, otherwise):
 
 
 def about(x, y, z, degrees):
-    """The quaternion of a turn about an axis of length 1."""
+    """The quaternion of a rotation about an axis of length 1."""
     half = math.radians(degrees) / 2
     return (math.cos(half), *(math.sin(half) * each for each in (x, y, z)))
 
@@ -103,13 +104,13 @@ def with_cube(settings):
 
 
 def both_turns(second, first):
-    """The quaternion of two turns, one after the other."""
+    """The quaternion of two rotations, `first` and then `second`."""
     (a, b, c, d), (e, f, g, h) = second, first
     return (a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e)
 
 
 def near(placed, pose, eye_m):
-    """Is the status file's `presented` drawn for this pose, (x, y, z, qw, qx, qy, qz), and eye?"""
+    """Whether the status file's `presented` was drawn for this pose, (x, y, z, qw, qx, qy, qz), and this eye."""
     turned = 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(placed["prop_wxyz"], pose[3:])))))
     return (math.dist(placed["prop_m"], pose[:3]) < PLACE_TOLERANCE_M and turned < TURN_TOLERANCE
             and math.dist(placed["eye_m"], eye_m) < PLACE_TOLERANCE_M)
@@ -139,7 +140,7 @@ class Bench:
         return (self.tracker, self.buttons, self.camera, *self.other_trackers.values())
 
     def start(self):
-        """Returns the seconds that it took."""
+        """Starts the machine; returns the seconds that this took."""
         begun = time.monotonic()
         self.machine.start()
         Patience.clock = self.machine.granted_s
@@ -159,11 +160,11 @@ class Bench:
                 f"the devices: {HERE / 'mock_tracker'} --tell {self._sockets / 'tracker.control'} help\n"
                 f"to end it: kill {self.machine.pid} {' '.join(str(mock.process.pid) for mock in self._mocks())}")
 
-    # The exhibit's own words.
+    # The exhibit's settings, status and journal.
 
     def configure(self, settings, before, after):
-        """Restarts the exhibit with these settings, unless it has them. `before`: what the guest does meanwhile; `after`: the
-        same when others come."""
+        """Restarts the exhibit with these settings, unless it has them. `before`: a command for the guest while the exhibit is stopped;
+        `after`: a command for the time when it is stopped to get other settings."""
         if settings == self._settings:
             return
         # Stop, then start: a restart could cut off a handshake with the tracker in the middle.
@@ -181,7 +182,7 @@ class Bench:
             return None
 
     def status_says(self, key, pattern, timeout_s=20.0):
-        """Waits for a sentence in the status file in which this regular expression is found."""
+        """Waits until this member of the status file matches the regular expression; returns the status."""
         found = [None]
 
         def said():
@@ -203,19 +204,19 @@ class Bench:
     # The screen's picture.
 
     def screendump(self, head=0):
-        """`head`: an output of the card that is looked at."""
+        """The present picture of the card `looked_at`. `head`: the card's output."""
         self.machine.screendump(self._shot, self.looked_at, head)
         return screen.read_ppm(self._shot)
 
     def second_viewer(self, head=0):
-        """A window at an output of the second card."""
+        """Opens a viewer's window at an output of the second card."""
         return VncViewer(self._sockets / ("second" if head == 0 else f"second-{head}"))
 
     def probe(self):
         return screen.probe(self.screendump())
 
     def picture_of(self, pose, eye_m=EYE_M, timeout_s=20.0):
-        """Waits until the exhibit says that it presented this pose with nothing fading; returns that picture or a
+        """Waits until the exhibit reports that it presented this pose without a fade; returns that picture or a
         later one from the screen."""
         return self.picture_where(lambda placed: near(placed, pose, eye_m), pose, timeout_s)
 
@@ -232,7 +233,7 @@ class Bench:
         return eventually(rests, 30.0, "the picture does not come to rest")
 
     def picture_where(self, is_it, what, timeout_s=20.0):
-        """The same for a presented picture that is_it() accepts."""
+        """As picture_of, for a presented picture that is_it() accepts."""
         last = [None]
 
         def presented():
@@ -257,8 +258,8 @@ class Bench:
         return [self._rendered[pose, artifact, eye_m] for pose in poses]
 
     def render(self, poses, artifact, eye_m, config=CONFIG, head=UPRIGHT, options=(), torches=None):
-        """The same with other settings, another turn of the head, and options of `render`, drawn each time. `torches`: of each pose
-        that of the torch."""
+        """As `rendered`, with other settings, another rotation of the head and options of `render`; draws anew each time. `torches`: for
+        each pose, the torch's pose."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
@@ -275,7 +276,7 @@ class Bench:
     # The devices.
 
     def hold(self, buttons, until):
-        """As a person does: until the table answers. A slow machine sees the buttons late."""
+        """Holds buttons until the table reacts, as a person does, because a slow machine notices the buttons late."""
         for button in buttons:
             self.buttons.tell("hold", button)
         try:
@@ -298,7 +299,7 @@ class Bench:
         return self.out / test.id().split(".")[-1]
 
     def keep_evidence(self, folder):
-        """Keeps what the machine shows and says now, as far as it still answers."""
+        """Keeps the machine's present pictures and messages in the folder, as far as the machine still answers."""
         shutil.copy(self.out / "serial.log", folder)
         try:
             for number in range(3):

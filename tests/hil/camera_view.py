@@ -1,4 +1,4 @@
-"""A camera's view: AprilTags on the table, and a person at it. Drawn by rays, with arithmetic that is independent of the exhibit.
+"""A camera's view: AprilTags on the table, and a person at it. Drawn by ray casting, with arithmetic independent of the exhibit's.
 
 Frame    table T, metres; pixels, the centre of the top left one is (0.5, 0.5).
 Shape    luma[height][width], row 0 at the top, one byte a pixel.
@@ -25,7 +25,7 @@ class View:
         self.width, self.height, self.focal_px, self.rotation, self.place = width, height, focal_px, rotation, place
 
     def settings(self):
-        """The same for the exhibit."""
+        """This camera as settings of the exhibit."""
         return (f"width = {self.width}\nheight = {self.height}\nfx = {self.focal_px}\n"
                 f"table_from_camera = {by_columns(self.rotation, self.place)}\n")
 
@@ -67,7 +67,7 @@ def modules(number):
 
 
 class Tag:
-    """Lies face up in the plane of the prop's foot. `turn_deg`: 0: its top looks to the prop's +Y."""
+    """A tag that lies face up in the plane of the prop's foot. `turn_deg`: 0: the tag's top points to the prop's +Y."""
 
     def __init__(self, number, size_m, middle, turn_deg):
         self.number, self.size_m, self.middle, self.turn_deg = number, size_m, middle, turn_deg
@@ -78,7 +78,7 @@ class Tag:
 
 
 def skirt(side_m, size_m, sides):
-    """A tag at the middle of so many sides of a square foot, from its front counter-clockwise, the white margins at its edge."""
+    """A tag at the middle of each of `count` sides of a square foot, from the front counter-clockwise, the white margins at the edge."""
     out = 0.5 * side_m + 0.625 * size_m
     middles = [apply(turn((0, 0, 1), 0.5 * math.pi * side), (0.0, -out, 0.0)) for side in range(sides)]
     return [Tag(side, size_m, (round(x, 6), round(y, 6)), 90.0 * side) for side, (x, y, _) in enumerate(middles)]
@@ -136,7 +136,7 @@ class _Ball:
         self._form = [[sum(axis[i] * axis[k] / size ** 2 for axis, size in zip(axes, half)) for k in range(3)] for i in range(3)]
 
     def seen_from(self, origin):
-        """The distance to the surface along a ray from there; None: it misses."""
+        """The distance to the surface along a ray from that point; None if the ray misses."""
         o = plus(origin, self._middle, -1.0)
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = self._form
         bx, by, bz = apply(self._form, o)

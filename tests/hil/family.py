@@ -1,4 +1,4 @@
-"""Ends all processes that a program starts, and those that they start, however the program ends.
+"""Ends all processes that a program has started, and their descendants, however the program itself ends.
 
 Signals  SIGINT, SIGTERM and SIGHUP raise Ended in the main thread, which unittest does not catch, like KeyboardInterrupt.
 Threads  the main thread.
@@ -14,7 +14,7 @@ import time
 
 PR_SET_CHILD_SUBREAPER = 36
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-PATIENCE_S = 10.0  # for a process that was told to end, before it is killed
+PATIENCE_S = 10.0  # between SIGTERM and SIGKILL
 
 
 class Ended(KeyboardInterrupt):
@@ -26,7 +26,7 @@ class Ended(KeyboardInterrupt):
 
 
 def _raise_ended(number, _frame):
-    """Once: who ends a family repeats the signal, which must not cut off what a process of it tidies up."""
+    """Raises Ended for the first signal only. A repeated signal is ignored, so that it does not interrupt the ending of the family."""
     for each in SIGNALS:
         signal.signal(each, lambda *_: None)
     raise Ended(number)
@@ -66,7 +66,7 @@ def _end_all():
 
 
 class Family:
-    """`with Family() as family`: ends what was started inside; after `family.keep = True` only if it is interrupted."""
+    """`with Family() as family`: ends all processes started inside it; after `family.keep = True` only if it is interrupted."""
 
     def __init__(self):
         self.keep = False
@@ -79,6 +79,6 @@ class Family:
 
     def __exit__(self, kind, error, trace):
         for number in SIGNALS:
-            signal.signal(number, lambda *_: None)  # not ignored: a program started by a thread now would inherit that
+            signal.signal(number, lambda *_: None)  # not SIG_IGN, which a program that a thread starts now would inherit
         if kind is not None or not self.keep:
             _end_all()

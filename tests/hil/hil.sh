@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ./test hil: installs what it needs, builds the programs that it needs, and runs the tests in an emulated machine. Without options it
-# also starts the image as it is shipped, by UEFI.
+# ./test hil: installs the packages and builds the programs that it needs, and runs the tests in an emulated machine. Without options it
+# also starts the shipped image by UEFI.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."

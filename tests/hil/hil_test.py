@@ -9,7 +9,7 @@ from bench import CONNECTOR, UNIT, UPRIGHT, USUAL, Bench
 
 CENTRE_M = (0.0, 0.0, 0.0)
 BUTTONS = 5
-PIXELS = 2.0  # largest distance between what is shown and what is rendered offline
+PIXELS = 2.0  # largest distance between the shown picture and the one rendered offline
 LIT = r"is lit, \d+ x \d+ at "  # the display's state; no sentence about a dark projector has this
 START_S = 60.0  # until the exhibit shows its first pictures: their shaders are compiled on a slow processor
 
@@ -25,13 +25,13 @@ def is_long(test):
 
 
 class HilTest(unittest.TestCase):
-    """All tests share one machine; each begins with all devices working, the first artifact, the prop at the centre. The
-    exhibit is restarted where a class has other settings than the one before it."""
+    """All tests share one machine. Each test begins with all devices working, the first artifact, and the prop at the centre. The
+    exhibit is restarted if a class has other settings than the class before it."""
 
     bench: Bench
     settings = USUAL  # the whole file
     unsigned = False  # whether its machine must take a kernel module without a signature
-    before = after = "true"  # what the machine does while the exhibit stands: before it has these settings, after it had them
+    before = after = "true"  # commands for the machine while the exhibit is stopped: before it gets these settings, after it had them
     broken_s = broken_uptime_s = None
     longest_s = 0.0  # the longest time that a picture stood in any test while it should move
 
@@ -59,7 +59,7 @@ class HilTest(unittest.TestCase):
         self.broken_s, self.broken_uptime_s = self.bench.machine.granted_s(), self.uptime_s()
 
     def tell_lit(self):
-        """Prints the time until the screen was lit again, and by the guest's own clock the times of the restart and of the start."""
+        """Prints the time until the screen was lit again, and, by the guest's own clock, the times until and of the exhibit's start."""
         if self.broken_s is None:
             return
         dark_s = self.bench.machine.granted_s() - self.broken_s
@@ -85,7 +85,7 @@ class HilTest(unittest.TestCase):
         self.bench.machine.check(f"echo {ms} > /run/hil/new; mv /run/hil/new /run/hil/hang-{what}")
 
     def watch(self, seconds, rests=False):
-        """Looks at the screen for `seconds`: no picture may stand too long."""
+        """Watches the screen for `seconds`; no picture may stand too long."""
         seen = watch.watch(self.bench, seconds)
         if not rests:
             HilTest.longest_s = max(HilTest.longest_s, seen.stood().granted_s)

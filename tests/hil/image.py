@@ -1,5 +1,5 @@
-"""The machine's disk: the kiosk's image as ./image_build/build --test makes it, packs and settings on its data partition
-as a museum has them, and beside the test's agent what these tests lay over the root (guest/).
+"""The machine's disk: the kiosk's image as ./image_build/build --test makes it, with packs and settings on its data partition
+as a museum has them. In addition to the test's agent, these tests lay files over the root (guest/).
 
 Errors   subprocess.CalledProcessError from the programs that do the work.
 """
@@ -47,7 +47,7 @@ def write_data(disk, files):
 
 
 def disk(pack_folder, out):
-    """A copy of the image's disk with the museum's settings and packs on it; it takes no space where the file has holes."""
+    """Makes a copy of the image's disk with the museum's settings and packs on it; a sparse file."""
     run("cp", "--sparse=always", "--reflink=auto", PRODUCT / "frustumscreen.raw", out)
     files = {f"lib/frustumscreen/packs/{pack.name}": pack for pack in sorted(pack_folder.glob("*.fspack"))}
     write_data(out, {**files, "lib/frustumscreen/words.fswords": pack_folder / "words.fswords", "settings/kiosk.toml": SETTINGS})
@@ -55,14 +55,14 @@ def disk(pack_folder, out):
 
 
 def kernel_image_parts(kernel_image, folder):
-    """Kernel, initrd and command line, each a file in the folder: a start without firmware and boot loader."""
+    """Writes kernel, initrd and command line into files of the folder, for a start without firmware and boot loader."""
     for name in ("linux", "initrd", "cmdline"):
         run("objcopy", "-O", "binary", f"--only-section=.{name}", kernel_image, folder / name, stderr=subprocess.DEVNULL)
 
 
 def start_files(out, unsigned=None):
-    """Fills the folder `out` with linux, initrd and cmdline. What these tests lay over the root follows the agent's files in the
-    initrd. `unsigned`: a kernel module without Debian's signature, for which the kernel must not be locked down."""
+    """Fills the folder `out` with linux, initrd and cmdline. In the initrd, the files that these tests lay over the root follow the
+    agent's. `unsigned`: a kernel module without Debian's signature, for which the kernel must not be locked down."""
     kernel_image, = PRODUCT.glob("*.efi")
     out.mkdir(parents=True, exist_ok=True)
     kernel_image_parts(kernel_image, out)
@@ -82,7 +82,7 @@ def start_files(out, unsigned=None):
     with open(out / "initrd", "ab") as initrd:
         initrd.write(bytes(-initrd.tell() % 4) + packed)
     command_line = (out / "cmdline").read_text(encoding="utf-8").rstrip("\0\n")
-    command_line += " mitigations=off"  # the emulator pays dearly for them, and has no processor's faults
+    command_line += " mitigations=off"  # they make the emulator much slower, and it has none of these faults of processors
     if unsigned:
         command_line = command_line.replace("lockdown=integrity ", "")
     (out / "cmdline").write_text(command_line, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""A kept calibration that says the same as the usual settings, written by hand: commands for the guest that put it there and take it away."""
+"""A kept calibration, written by hand, that equals the usual settings; and commands for the guest that install and remove it."""
 
 import base64
 import pathlib

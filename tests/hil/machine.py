@@ -1,7 +1,7 @@
 """An emulated PC: QEMU without KVM, its monitor (QMP) and the guest's agent.
 
 Frame    one machine for a whole test run; every start begins with the same file systems.
-Time     seconds that the host granted (`granted_s`), where nothing else is said.
+Time     seconds that the host granted (`granted_s`), unless a comment says otherwise.
 Threads  one caller.
 Errors   MachineError, which names the folder of the serial log.
 Source   QEMU Machine Protocol and Guest Agent protocol references, docs of QEMU 7.2.
@@ -17,8 +17,8 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
-# An emulated processor without AVX. QEMU 7.2's gather of AVX2 (vpgatherdd) reads 2 GiB beside its base where a page comes in while it
-# works, and llvmpipe ends with SIGSEGV (README.md); without AVX, llvmpipe also takes the vectors that the emulator is quick at.
+# An emulated processor without AVX. QEMU 7.2's gather of AVX2 (vpgatherdd) reads 2 GiB beside its base if a page fault interrupts it, and
+# llvmpipe ends with SIGSEGV (README.md). Without AVX, llvmpipe also uses smaller vectors, which the emulator computes quickly.
 # Tests on the host cover AVX2.
 PROCESSOR = "max,avx=off,avx2=off,fma=off,f16c=off,vaes=off,vpclmulqdq=off"
 SECOND_SLOT = 0x10  # of the second graphics card, on the PCI bus
@@ -83,9 +83,9 @@ class JsonLines:
 
 @dataclass
 class Given:
-    """Two clocks of the guest that stop while a busy host makes the guest wait."""
+    """Two clocks of the guest, which stop while a busy host makes the guest wait."""
 
-    granted_s: float  # time in which none of its processors waited for the host's
+    granted_s: float  # time in which none of its processors waited for one of the host's
     rested_s: float  # the part of it in which none of its processors had work
 
 
@@ -118,7 +118,7 @@ class Machine:
     def start(self):
         self.logs.mkdir(parents=True, exist_ok=True)
         with open(self.logs / "qemu.log", "w", encoding="utf-8") as log:
-            # a new session, so that it outlives the tests if a person wants to keep it
+            # a new session, so that a person can keep the machine after the tests
             self._process = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                              start_new_session=True)
         try:
@@ -130,7 +130,7 @@ class Machine:
             raise MachineError(f"the guest did not start ({error}); see {self.logs}; its last lines:\n{said}") from error
 
     def connect_monitor(self):
-        """The monitor answers as soon as QEMU runs; the guest's clocks begin here."""
+        """Connects to QEMU's monitor, which answers as soon as QEMU runs. The guest's clocks begin here."""
         self.pid = self._process.pid
         self._monitor = JsonLines(self.sockets / "monitor", 30.0)
         self._monitor.receive()
@@ -139,7 +139,7 @@ class Machine:
         self._given, self._asked = Given(0.0, 0.0), self._scheduled()
 
     def last_lines(self, count=40):
-        """The end of the guest's output on its serial line. A shell that listens there is queried first."""
+        """The end of the guest's output on its serial line. If a shell listens there, it is first asked for the agent's status."""
         try:
             with socket.socket(socket.AF_UNIX) as line:
                 line.connect(os.fspath(self.sockets / "serial"))
@@ -191,7 +191,7 @@ class Machine:
             "-chardev", f"socket,id={name},path={path},reconnect=1", "-device", f"usb-redir,id=usb-{name},chardev={name}")]
 
     def may_start_anew(self):
-        """From now on the hardware's watchdog, a panic or a reboot restarts the machine; before, it ends it."""
+        """Lets the hardware's watchdog, a panic or a reboot restart the machine; before this call they end it."""
         self.monitor("set-action", reboot="reset", watchdog="reset")
         self._monitor.event_came("RESET")
 
@@ -207,12 +207,12 @@ class Machine:
             time.sleep(0.5)
 
     def wait_for_start(self):
-        """After the machine was reset: until its agent answers again."""
+        """Waits, after a reset of the machine, until its agent answers again."""
         self._agent.close()
         self._connect_agent()
 
     def _connect_agent(self):
-        """The agent answers once the guest's user space runs; what was sent earlier may be lost."""
+        """Connects to the agent, which answers once the guest's user space runs. Earlier messages may be lost, so they are repeated."""
         agent = JsonLines(self.sockets / "agent", 1.0)
         deadline = self.granted_s() + START_S
         token = int(time.monotonic() * 1000) & 0x7FFFFFFF
@@ -234,23 +234,23 @@ class Machine:
 
     @property
     def heard(self):
-        """The sound card's output, 16-bit stereo at 48 kHz behind a header of 44 bytes; QEMU fills in its sizes at
-        its end."""
+        """The file of the sound card's output: 16-bit stereo at 48 kHz after a header of 44 bytes, whose sizes QEMU fills in when
+        it ends."""
         return self.logs / "heard.wav"
 
     def monitor(self, command, **arguments):
         return self._monitor.answer({"execute": command, "arguments": arguments})
 
     def _scheduled(self):
-        """The time now, and for each of the guest's processors the seconds that it ran and those that it was ready but
-        the host's were all busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
+        """The time now, and for each of the guest's processors the seconds in which it ran, and those in which it was ready to run but the
+        host's processors were busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
         files = [pathlib.Path(f"/proc/{self.pid}/task/{thread}/schedstat") for thread in self._threads]
         words = [file.read_text(encoding="ascii").split() for file in files]
         return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
 
     def given(self):
-        """The processor time that the host has given the guest so far. Call it about every 50 ms: then processors that wait one after
-        another are told from those that wait at once. More often is worse: a wait counts as rest until it ends.
+        """The time that the host has granted the guest so far. Call it about every 50 ms. Less often, it cannot distinguish processors that
+        wait one after another from processors that wait at the same time; more often, a wait counts as rest until it ends.
         """
         now, scheduled = self._scheduled()
         before, self._asked = self._asked, (now, scheduled)
@@ -307,7 +307,7 @@ class Machine:
         return ran.output
 
     def read(self, path, last=None):
-        """A small file of the guest, or its `last` bytes; None: it cannot be opened. Starts no process there, as `run` does."""
+        """A small file of the guest, or its `last` bytes; None: it cannot be opened. Unlike `run`, it starts no process in the guest."""
         try:
             handle = self._agent.answer({"execute": "guest-file-open", "arguments": {"path": path}})
         except MachineError:
@@ -322,16 +322,16 @@ class Machine:
         return base64.b64decode(found["buf-b64"]).decode(errors="replace")
 
     def write(self, path, text):
-        """Writes a small file in the guest; a reader meanwhile gets the complete old one."""
+        """Writes a small file in the guest; a concurrent reader gets the complete old one."""
         encoded, path = base64.b64encode(text.encode()).decode(), shlex.quote(path)
         self.check(f"echo {encoded} | base64 -d > {path}.new && mv {path}.new {path}")
 
     # Sticks at the USB ports.
 
     def plug(self, name, source, bytes_per_s=None, serial=None, driver="usb-storage", written_per_s=None, protected=False):
-        """Puts a stick in. `source`: an image, or the socket of a server of blocks (NBD); `driver`: or usb-uas, USB attached
-        SCSI, to which the disk is attached before the guest sees any of it. `bytes_per_s` are read, `written_per_s` written at
-        most; `protected`: its switch is set so that nothing can be written."""
+        """Puts a stick in. `source`: an image, or the socket of an NBD server; `driver`: usb-storage or usb-uas (USB attached SCSI), to
+        which the disk is attached before the guest sees the device. `bytes_per_s`, `written_per_s`: upper limits of reading and writing;
+        `protected`: its switch is set to write-protected."""
         source = pathlib.Path(source)
         if source.is_socket():
             disk = {"driver": "nbd", "server": {"type": "unix", "path": os.fspath(source)}}
@@ -356,11 +356,11 @@ class Machine:
         self._sticks[name] = nodes
 
     def pull(self, name):
-        """Pulls a stick out, whatever the guest does with it."""
+        """Pulls a stick out, even while the guest uses it."""
         self.monitor("device_del", id=name)
         for node in self._sticks.pop(name):
             deadline = time.monotonic() + 30.0
-            while True:  # the device lets go of it a little later
+            while True:  # the device releases the node a little later
                 try:
                     self.monitor("blockdev-del", **{"node-name": node})
                     break
@@ -372,7 +372,7 @@ class Machine:
                 self.monitor("object-del", id=f"{name}-pace")
 
     def screendump(self, path, screen="screen", head=0):
-        """Writes what a card's output shows now to a PPM file on the host."""
+        """Writes the present picture of a card's output to a PPM file on the host."""
         self.monitor("screendump", device=screen, head=head, filename=os.fspath(path))
 
     def stop(self):

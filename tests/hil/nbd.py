@@ -26,8 +26,8 @@ EIO = 5
 
 
 class Server:
-    """One disk behind a socket. Whoever derives from it answers: `read(place, length)`, `write(place, data, through)`, `flush()`,
-    each the bytes or None, or OSError with the number that the machine is told; one call at a time."""
+    """Serves one disk over a socket. A subclass defines `read(place, length)`, which returns the bytes, `write(place, data, through)` and
+    `flush()`. Each may raise OSError, whose number is reported to the machine. The server makes one call at a time."""
 
     def __init__(self, path, size):
         self.path, self._size = pathlib.Path(path), size
@@ -40,14 +40,15 @@ class Server:
         self._accepts.start()
 
     def stop(self):
-        # A thread on its way into accept() keeps the number of a closed socket, and would take a client of the next one.
+        # The thread must end before the socket is closed: a thread that is about to call accept() would use the number of the closed
+        # socket, and so take a client of the next one.
         self._listens.shutdown(socket.SHUT_RDWR)
         self._accepts.join()
         self._listens.close()
         self.path.unlink(missing_ok=True)
 
     def pause(self, kind):
-        """Called before the server answers a command; other commands may be answered meanwhile."""
+        """Called before the server answers a command; it may block, and other connections are served at the same time."""
 
     def _accept(self):
         while True:
@@ -120,10 +121,10 @@ class Server:
 
 
 class Disk(Server):
-    """A disk with a volatile write cache, as real ones have: what was written is durable once the host has flushed, or wrote
-    it with FUA. `image` is read at the start and never written. `delay_s`: before each read is answered; `cut_after`: the power
-    is cut by itself after so many writes, and without it each write fails; `tell_at`: the read at which `is_reached` is set;
-    `change`: called before each read with the disk's bytes, the place and the length."""
+    """A disk with a volatile write cache, as real ones have: written data are durable once the host has flushed, or has written
+    them with FUA. `image` is read at the start and never written. `delay_s`: delay of each read; `cut_after`: the power is cut after so
+    many writes, and without it each write fails; `tell_at`: the read at which `is_reached` is set; `change`: called before each read with
+    the disk's bytes, the place and the length."""
 
     def __init__(self, path, image, delay_s=0.0, cut_after=None, seed=0, tell_at=None, change=None, size=None):
         self.delay_s, self.cut_after, self.tell_at, self.change = delay_s, cut_after, tell_at, change
@@ -141,7 +142,7 @@ class Disk(Server):
         super().stop()
 
     def cut(self):
-        """Cuts the power: a random share of the sectors that were not flushed is on the disk."""
+        """Cuts the power: a random share of the sectors that were not flushed stays on the disk."""
         with self._lock:
             self._cut()
 
@@ -156,7 +157,7 @@ class Disk(Server):
                     self._durable[place + at:place + at + SECTOR] = data[at:at + SECTOR]
 
     def survived(self, image):
-        """Writes the contents of the disk after the cut."""
+        """Writes the contents of the disk after the cut into `image`."""
         assert self.is_cut.is_set()
         pathlib.Path(image).write_bytes(self._durable)
 
@@ -173,7 +174,7 @@ class Disk(Server):
         self.reads += 1
         if self.reads == self.tell_at:
             self.is_reached.set()
-        if self._now is None:  # larger than memory: what the image does not have is zero
+        if self._now is None:  # the disk is larger than memory; bytes after the end of the image are zero
             return self._head[place:place + length].ljust(length, b"\0")
         if self.change:
             self.change(self._now, place, length)

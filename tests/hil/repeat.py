@@ -1,4 +1,4 @@
-"""Runs the same tests again and again on a busy machine; every run must be clean."""
+"""Helps to run the same tests repeatedly on a busy machine; every run must be clean."""
 
 import subprocess
 import sys
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 
 class Load:
-    """`with Load(loops)`: runs so many busy loops meanwhile."""
+    """`with Load(loops)`: runs so many busy loops in the background."""
 
     def __init__(self, loops):
         self._loops = loops
@@ -28,8 +28,8 @@ class Run:
 
     load_average: float  # the average of the last five minutes, at the end
     took_s: float
-    stood_s: float  # the longest that a picture stood while it should move
-    wrong: list = field(default_factory=list)  # names of tests
+    stood_s: float  # the longest time for which a picture stood while it should move
+    wrong: list = field(default_factory=list)  # names of the tests that failed
 
 
 def as_text(table):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Hardware in the loop: makes the guest, starts it, runs the tests in it. `./test hil` calls this."""
+"""Hardware in the loop: makes the guest, starts it, and runs the tests in it. `./test hil` calls this."""
 
 import argparse
 import os
@@ -19,7 +19,7 @@ from repeat import Load, Run, as_text
 MODULES = ("boot", "pose", "watch", "trackers", "buttons", "unplug", "camera", "camera_uses", "misbehaviour", "storm", "latency", "stick", "stick_report",
            "stick_copy", "stick_hostile", "stick_storm", "settings", "missing", "table", "calibration", "guidance", "stereo", "display", "screen", "torch", "windows", "vblank", "restart", "safe",
            "status", "hours", "watchdog", "delivery", "kernel")
-SLOWEST = 10  # tests that are named at the end
+SLOWEST = 10  # so many of the slowest tests are listed at the end
 
 
 def say(text):
@@ -35,7 +35,7 @@ def flat(suite):
 
 
 class Verdicts(unittest.TextTestResult):
-    """Says how long each test took, and notes it in `took`; after a failure keeps what the machine shows, before the next test begins."""
+    """Prints the time of each test, and notes it in `took`; keeps evidence of a failure before the next test begins."""
 
     def startTestRun(self):
         super().startTestRun()
@@ -79,22 +79,22 @@ def numbers(text):
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./test hil", description=__doc__)
     parser.add_argument("--only", metavar="NAME[,NAME...]",
-                        help="the tests whose name contains NAME, long ones too")
-    parser.add_argument("--all", action="store_true", help="the long tests too")
-    parser.add_argument("--list", action="store_true", help="the tests' names, and nothing else")
+                        help="run the tests whose name contains NAME, also long ones")
+    parser.add_argument("--all", action="store_true", help="run the long tests too")
+    parser.add_argument("--list", action="store_true", help="only list the tests' names")
     parser.add_argument("--repeat", metavar="N", type=int, default=1,
-                        help="N times, each with a fresh machine; a table at the end")
+                        help="run them N times, each time in a new machine; a table at the end")
     parser.add_argument("--load", metavar="N[,N...]", default="0", type=numbers,
-                        help="with so many busy loops beside it; of several, one after another")
+                        help="run them with so many busy loops; several numbers: with each of them")
     parser.add_argument("--keep", action="store_true", help="leave the last machine up, and say how to get a shell in it")
     parser.add_argument("--out", type=pathlib.Path, default=image.CHECKOUT / "out" / "hil",
-                        help="where to leave what was found; emptied first")
+                        help="folder for logs and evidence; emptied first")
     return parser.parse_args()
 
 
 def chosen(arguments, unsigned=None):
-    """The tests to run, made again for each run, because unittest drops tests that it ran. `unsigned`: only those whose machine
-    takes a kernel module without a signature, or only the others."""
+    """The tests to run, made again for each run, because unittest drops tests that it has run. `unsigned`: True: only tests whose machine
+    takes a kernel module without a signature; False: only the others."""
     tests = flat(unittest.defaultTestLoader.loadTestsFromNames(f"test_{name}" for name in MODULES))
     tests = [test for test in tests if unsigned in (None, test.unsigned)]
     if arguments.only:
@@ -103,14 +103,14 @@ def chosen(arguments, unsigned=None):
 
 
 def made(out, unsigned):
-    """The machine's parts: files, disk, packs. `unsigned`: with a module that a locked kernel refuses."""
+    """The machine's parts: files, disk, packs. `unsigned`: with an unsigned module, which a locked-down kernel refuses."""
     packs = image.packs(say)
     image.start_files(out, image.vkms(say) if unsigned else None)
     return out, image.disk(packs, out / "disk.raw"), packs
 
 
 def run(tests, bench, keep):
-    """The result of the tests, and the evidence that they collected."""
+    """Runs the tests in a machine; returns the result."""
     HilTest.bench, HilTest.longest_s = bench, 0.0
     try:
         say("starting the machine")
@@ -165,5 +165,5 @@ if __name__ == "__main__":
             status = main(whole)
     except Ended as ended:
         print(f"hil: ended by {ended}", file=sys.stderr, flush=True)
-        os._exit(ended.status)  # at once: a thread that waited for a program might start the next one
+        os._exit(ended.status)  # at once, because a thread that waits for a program could start the next one
     sys.exit(status)

@@ -1,8 +1,8 @@
 """Pictures: read from PPM (screendump) and PNG (our programs), and measured.
 
 Shape    row 0 at the top; 8-bit sRGB codes, three bytes a pixel.
-Outline  a picture's lit part is a list of integers, one for each row, whose bits are its pixels, the leftmost the
-         highest; so shifting and counting pixels is integer arithmetic.
+Outline  a picture's lit part is a list of integers, one for each row. An integer's bits are the row's pixels, the leftmost pixel
+         the highest bit; so shifting and counting pixels is integer arithmetic.
 Errors   ValueError.
 Source   netpbm's ppm(5); PNG specification (W3C, 2003), section 9 (filters).
 """
@@ -11,7 +11,7 @@ import struct
 import zlib
 from dataclasses import dataclass
 
-LIT = 12  # sRGB codes above this are lit: more than the codes' greys (base/probe_code.h) and rounding
+LIT = 12  # sRGB codes above this count as lit; it exceeds the greys of the picture's code (base/probe_code.h) and rounding
 PROBE_PIXELS = 8
 CODES = 1 << PROBE_PIXELS
 
@@ -100,7 +100,7 @@ def read_png(path):
 
 
 def write_png(path, picture):
-    """Compresses a little: quick to write, small enough to keep."""
+    """Writes with weak compression: fast, and small enough to keep."""
     lines = b"".join(
         b"\0" + picture.rgb[3 * picture.width * y : 3 * picture.width * (y + 1)] for y in range(picture.height)
     )
@@ -160,7 +160,7 @@ def box(rows, width):
 
 
 def changed(before, after, by):
-    """Rows whose bits are the pixels that differ by more than so many codes; the first row has the watchdog's code."""
+    """An outline of the pixels that differ by more than so many codes, without the first row, which has the watchdog's code."""
     rows = [0]
     for y in range(1, before.height):
         first = 3 * before.width * y
@@ -172,7 +172,7 @@ def changed(before, after, by):
 
 
 def grown(rows, pixels, width):
-    """Every pixel that is at most `pixels` away from a lit one, along a row, a column or both."""
+    """The outline grown by `pixels` along rows and columns."""
     full = (1 << width) - 1
     wide = []
     for row in rows:

@@ -22,12 +22,11 @@ LIBRARY = "/var/lib/frustumscreen/library"
 REPORT_FILE = "/run/frustumscreen-import/report.json"
 IMPORT_S = 60.0  # for a small pack: udev, three starts of services and a copy, on a slow processor
 UNITS = "'frustumscreen-import@*' 'frustumscreen-stick@*' 'frustumscreen-ntfs@*' 'frustumscreen-import-refused@*' 'frustumscreen-report@*' 'frustumscreen-report-open@*' 'frustumscreen-report-close@*'"
-# Finds leftovers of a stick: first by cheap checks, which nearly always suffice, then by systemd.
+# Waits until a stick has left no process, mount or unit: first by cheap checks, which almost always suffice, then by systemd.
 QUIET = ("udevadm settle; while cat /sys/fs/cgroup/system.slice/system-frustumscreen*.slice/*/cgroup.procs 2>/dev/null | grep -q . "
          "|| grep -q /run/frustumscreen-stick/stick /proc/mounts; do sleep 0.1; done; "
          f"while systemctl list-units --no-legend --plain {UNITS} | grep -q .; do sleep 0.2; done")
-# The installed set, and every pack against its name, which is its SHA-256.
-# Each pack matches its name, except one that an import removes while it is read.
+# Prints the installed set, and checks that each pack's SHA-256 equals its name, except for a pack that an import removes meanwhile.
 LIST = (f"frustumscreen-import --list --into {LIBRARY} --json || exit 1; cd {LIBRARY}/packs 2>/dev/null && ls | grep -q fspack$ || exit 0; "
         'for pack in *.fspack; do sum=$(sha256sum "$pack" 2>&1) && [ "${sum%% *}" = "${pack%.fspack}" ] || [ ! -e "$pack" ] || { echo "$sum"; exit 1; }; done')
 QUIET_S = 240.0
@@ -36,7 +35,7 @@ TOLD_PIXELS = 300  # two short lines of words
 
 
 class StickTest(HilTest):
-    """Tells the kiosk a key, and removes the installed packs at the end of a class."""
+    """Gives the kiosk a key, and removes the installed packs at the end of a class."""
 
     @classmethod
     def setUpClass(cls):
@@ -53,7 +52,7 @@ class StickTest(HilTest):
 
     @classmethod
     def add_key(cls, name, public):
-        """The exhibit need not start again: only the importer uses the keys."""
+        """Adds a key to the settings. The exhibit need not restart, because only the importer uses the keys."""
         cls.keys += f'\n[[exhibit.keys]]\nname = "{name}"\npublic_key = "{public}"\nuntil = "2099-12-31"\n'
         cls.bench.machine.write(SETTINGS, cls.settings + cls.keys)
 
@@ -75,7 +74,7 @@ class StickTest(HilTest):
 
     @classmethod
     def large(cls, serial, mib):
-        """The path of a signed pack, called Vase, that takes a while: it has a part of noise, which no reader knows."""
+        """The path of a signed pack, named Vase, whose import takes a while: it has a large part of noise, which no reader knows."""
         pack = cls.folder / f"large-{serial}.fspack"
         description = plain_pack.manifest()
         description["sections"]["noise"] = {"parts": ["noise.bin"], "data": {}}
@@ -121,7 +120,7 @@ class StickTest(HilTest):
             return None
 
     def stage(self, *stages, timeout_s=IMPORT_S):
-        """Waits until an import that began since the last one was told of is at one of these stages."""
+        """Waits until an import that began after the last reported one is at one of these stages."""
         seen = [None]
 
         def reached():
@@ -141,7 +140,7 @@ class StickTest(HilTest):
         return self.bench.machine.run(f"systemctl list-units --no-legend --plain {UNITS}").output.strip()
 
     def installed(self, after="true"):
-        """The packs of the set that is installed once this command has ended in the guest: (title, serial). Each is whole."""
+        """The packs of the installed set after this command has ended in the guest: (title, serial). Each pack must be whole."""
         said = self.bench.machine.check(f"{after}; {LIST}", QUIET_S)
         listed, _ = json.JSONDecoder().raw_decode(said)
         for pack in listed["packs"]:
@@ -170,7 +169,7 @@ class ToldStickTest(StickTest):
         cls.prop = screen.grown([a | b for a, b in zip(*both)], 8, WIDTH)
 
     def told_on_table(self, name=None):
-        """The number of pixels that are lit beside the prop; the picture is kept under this name."""
+        """The number of lit pixels beside the prop; the picture is kept under this name."""
         picture = self.bench.screendump()
         if name:
             screen.write_png(self.bench.out / f"{name}.png", picture)
@@ -178,12 +177,12 @@ class ToldStickTest(StickTest):
 
 
 class LongStickTest(StickTest):
-    """Each test begins with an empty library, and the exhibit must live through all of it: the same process, a lit picture."""
+    """Each test begins with an empty library. The exhibit must survive all of it: the same process, a lit picture."""
 
     def setUp(self):
         super().setUp()
         self.clear_library()
-        # A memory stick does not spin up, so the kernel need not wait between two of them.
+        # The kernel need not wait for a stick to spin up.
         self.bench.machine.check("echo 0 > /sys/module/usb_storage/parameters/delay_use || true")
         self.process, self.frames = self.life(), -1
 
@@ -195,7 +194,7 @@ class LongStickTest(StickTest):
         return self.bench.machine.check(f"systemctl show -p MainPID -p NRestarts {UNIT}")
 
     def goes_on(self):
-        """The exhibit is the process that it was, says that it is well, its frames go on, and it lights the prop."""
+        """Checks that the exhibit is the same process, reports no fault, draws further frames, and lights the prop."""
         self.assertEqual(self.life(), self.process, "the exhibit was restarted")
 
         def is_well():

@@ -1,6 +1,6 @@
 """Sticks: images of file systems with files in them, made without root, without mounting anything.
 
-Units    sizes in MiB where the name says so, else bytes.
+Units    bytes; names with _mib: MiB.
 Errors   subprocess.CalledProcessError from the program that makes a file system.
 Source   Microsoft's exFAT specification (files are written into what mkfs.exfat has made, since no program of Debian does
          that without mounting it); UEFI specification 2.10, 5.2.1 (MBR) and 5.3 (GPT).
@@ -112,7 +112,7 @@ _MAKERS = {"vfat": _vfat, "exfat": _exfat, "ext4": _ext4, "ntfs": _ntfs}
 
 
 def file_system(image, kind, files, size_mib=40, label="PACKS"):
-    """A file system that fills the image, as on a stick without a partition table. `files`: name -> path or bytes, or a folder."""
+    """Makes a file system that fills the image, as on a stick without a partition table. `files`: name -> path or bytes, or a folder."""
     image = pathlib.Path(image)
     _blank(image, size_mib)
     if isinstance(files, pathlib.Path):
@@ -132,11 +132,11 @@ def file_system(image, kind, files, size_mib=40, label="PACKS"):
 
 
 def _places_to_damage(boot, kind):
-    """(place, bytes) of what says where folders and files lie; `boot`: the image's first bytes."""
-    if kind == "vfat":  # the allocation tables, but for their first entries
+    """(place, bytes) of the tables that locate folders and files; `boot`: the image's first bytes."""
+    if kind == "vfat":  # the allocation tables without their first entries
         reserved, count, = struct.unpack_from("<HB", boot, 14)
         return reserved * SECTOR + 12, count * struct.unpack_from("<I", boot, 36)[0] * SECTOR - 12
-    if kind == "exfat":  # the root folder, but for the label, and whatever lies behind it
+    if kind == "exfat":  # the root folder without the label, and the data after it
         heap, _, root = struct.unpack_from("<III", boot, 88)
         return (heap << boot[108]) + (root - 2 << boot[108] + boot[109]) + 32, 4096
     if kind == "ext4":  # the inodes, from the first file's on
@@ -180,8 +180,8 @@ def _gpt(disk, sectors, partitions):
 
 
 def partitioned(image, parts, table="mbr"):
-    """A stick with a partition table. `parts`: (kind, image of a file system) one behind the other; a GPT begins with the small
-    EFI partition that macOS makes."""
+    """Makes a stick with a partition table. `parts`: (kind, image of a file system), in the order on the stick; a GPT begins with the
+    small EFI partition that macOS makes."""
     image = pathlib.Path(image)
     begin, places = MIB // SECTOR, []
     if table == "gpt":

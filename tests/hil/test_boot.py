@@ -1,4 +1,4 @@
-"""From a cold start to a lit picture."""
+"""Tests that a cold start leads to a lit picture."""
 
 import screen
 from bench import eventually

@@ -1,4 +1,4 @@
-"""The buttons, through the CP2112's kernel driver and libgpiod, to another artifact on the screen."""
+"""Tests that a button shows another artifact on the screen, through the CP2112's kernel driver and libgpiod."""
 
 
 import screen

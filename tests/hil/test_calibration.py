@@ -1,7 +1,7 @@
-"""A technician with two buttons and the prop, alone: the projector hangs elsewhere than the settings say, the tracker stands anywhere, and
-nobody has a keyboard. Afterwards the picture is where the true table has it.
+"""Tests a calibration with only two buttons and the prop: the poses of projector and tracker differ from the settings, and there is no
+keyboard. Afterwards the picture must lie at its place on the true table.
 
-The truth's arithmetic is tests/calibration/true_table.py's; the tracker's mock has no noise.
+The arithmetic of the true table is in tests/calibration/true_table.py; the tracker's mock has no noise.
 """
 
 import json
@@ -21,7 +21,7 @@ from true_table import TrueTable, moved  # pylint: disable=wrong-import-position
 
 FIRST, NEXT, LAST = 0, 1, 2
 CALIBRATION = "frustumscreen-calibrate.service"
-SAID = "/run/hil/calibration"  # the last lines of the journal: to ask the journal itself takes the guest a second, each time
+SAID = "/run/hil/calibration"  # a copy of the journal's lines, because each query of the journal itself takes the guest a second
 FOLDER = "/var/lib/frustumscreen/calibration"
 SENSOR_M = 0.085
 ARTIFACT = "amphora"
@@ -31,9 +31,9 @@ PLACES = (((0.0, 0.0, 0.0), 0.0), ((0.07, 0.03, 0.0), 0.5), ((-0.08, -0.02, 0.0)
 
 
 class Calibration(HilTest):
-    # This many crosses, because aiming is as exact as a pixel, and pixels are large here: 1.25 mm.
+    # So many crosses, because aiming has the precision of a pixel, and pixels are large here: 1.25 mm.
     settings = USUAL + f"\n[calibration]\nsensor_height_m = {SENSOR_M}\ntouches = 25\n"
-    after = f"rm -rf {FOLDER}/*"  # the other tests' table is as their settings say
+    after = f"rm -rf {FOLDER}/*"  # the table of the other tests equals their settings
     truth = TrueTable(WIDTH, 0.4)
 
     def test_a_technician_alone_with_two_buttons(self):
@@ -48,7 +48,7 @@ class Calibration(HilTest):
         self.hears("Next keeps it.")
         self.press(NEXT)
         tracker = self.kept()["tracker"]
-        self.hears("Staff: where are the eyes?")  # the mock has a head's sensor, and the eyes' place relative to it is unknown
+        self.hears("Staff: where are the eyes?")  # the mock has a sensor on the head, and the eyes' place relative to it is unknown
         self.press(FIRST)
         self.bench.status_says("display", "is lit", START_S)
         self.assertIn("calibration-0001.toml is used", self.bench.journal())
@@ -59,7 +59,7 @@ class Calibration(HilTest):
 
     @long
     def test_whatever_its_end_the_exhibit_comes_back(self):
-        self.bench.machine.check(f"rm -rf {FOLDER}/*")  # what another test kept: a touch-up would be offered first
+        self.bench.machine.check(f"rm -rf {FOLDER}/*")  # with a calibration of another test, a touch-up would be offered first
         for end in (lambda: self.press(FIRST), lambda: self.bench.machine.check(f"systemctl kill -s KILL {CALIBRATION}")):
             self.begin()
             self.assertEqual(self.bench.main_process(), 0)
@@ -103,7 +103,7 @@ class Calibration(HilTest):
         self.bench.tracker.tell("pose", *self.truth.report(place, yaw, SENSOR_M), 1)
 
     def hears(self, words, timeout_s=START_S):
-        """Waits until the table shows these words. The journal has the table's words, and sometimes a line about a device."""
+        """Waits until the table shows these words. The journal's lines have them, and sometimes a message about a device."""
         said = [""]
 
         def is_said():
@@ -122,7 +122,7 @@ class Calibration(HilTest):
     # The truth.
 
     def crosses(self):
-        """The crosses that the kiosk shows, the first ones and the further ones: its settings alone determine them."""
+        """The crosses that the kiosk shows, the first ones and the additional ones; only its settings determine them."""
         with tempfile.TemporaryDirectory() as folder:
             config = pathlib.Path(folder) / "kiosk.toml"
             config.write_text(self.settings, encoding="utf-8")
@@ -136,8 +136,8 @@ class Calibration(HilTest):
         return tomllib.loads(text)
 
     def farthest_off(self, places, tracker):
-        """How far what is lit lies, in the middle or at its edges, from where it lies on the true table; pixels. `tracker`: the exhibit's
-        registration, by which its pictures are known."""
+        """The largest distance of the lit area's middle and edges from their places on the true table, pixels. `tracker`: the exhibit's
+        registration, which is needed to recognize its pictures."""
         worst = 0.0
         for place, yaw in places:
             eye = self.truth.in_tracker(EYE_M)
@@ -162,7 +162,7 @@ class Calibration(HilTest):
 
 
 def distance_px(seen, meant):
-    """The distance of the middles and edges of lit areas; far if nothing is lit."""
+    """The largest distance of the middles and edges of two lit areas; a large number if nothing is lit."""
     lit, true = screen.lit(seen), screen.lit(meant)
     if screen.count(true) < 300:
         raise AssertionError("the true picture is dark: this place proves nothing")

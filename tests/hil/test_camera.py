@@ -1,5 +1,5 @@
-"""A camera at USB: refused until the settings have one; then set up, read and judged by `frustumscreen camera`, through the kernel's own
-uvcvideo; its faults told in a sentence each. No picture leaves that process."""
+"""Tests a camera on USB: the kernel refuses it until the settings have a camera; then `frustumscreen camera` sets it up, reads and judges
+it through the kernel's own uvcvideo, and reports each fault in a sentence. No picture leaves that process."""
 
 import json
 import re
@@ -17,12 +17,12 @@ rate_hz = {RATE_HZ}.0
 exposure_ms = 8.0
 """
 WELL = "the camera is running"
-FAULTS = (  # what the mock does, what is said
+FAULTS = (  # the mock's fault, words of the report
     ("dark", "sees only darkness"), ("blind", "is blinded"), ("freeze", "the same picture again and again"),
     (f"slow {RATE_HZ / 3:g}", "less than half of its frames"), ("stall", "has stopped sending"),
     ("short-frames", "has stopped sending"), ("garbage-headers", "has stopped sending"))
 TOLD_S = 10.0
-BACK_S = 2.0  # from the kernel's camera to frames that are well
+BACK_S = 2.0  # from the time that the kernel has the camera to good frames
 SAID, FOUND = "/run/hil/camera.err", "/run/hil/camera.json"
 MOST_WRITTEN = 20_000  # bytes: the report, and a line for each change
 
@@ -47,7 +47,7 @@ class Watching:
         return [line.removeprefix("frustumscreen: ") for line in (self._machine.read(SAID) or "").splitlines()]
 
     def says(self, words, after=0):
-        """Waits until a state after the first `after` ones has these words; returns how many there are then."""
+        """Waits until a state after the first `after` ones has these words; returns the number of states then."""
         def heard():
             states = self.said()
             return next((after + k for k, state in enumerate(states[after:], 1) if words in state), None)
@@ -78,7 +78,7 @@ class Camera(HilTest):
         self.bench.camera.tell("good")
 
     def plug(self, settings=CAMERA):
-        """Plugs the camera in again, with these settings in addition; the exhibit goes on."""
+        """Plugs the camera in again after adding these settings; the exhibit keeps running."""
         self.bench.camera.tell("unplug")
         eventually(lambda: not self.is_there(), 20.0, "the kernel keeps a camera that is unplugged")
         self.bench.machine.write(SETTINGS, self.usual + settings)
@@ -126,8 +126,8 @@ class Camera(HilTest):
         print(f"  {report['counts']['frames']} frames, {report['rate_hz']:.1f} a second of {RATE_HZ}", flush=True)
 
     def assert_keeps_nothing(self, process):
-        """By the kernel's own books: no file is open for writing but the camera and its report's, no socket, no shared memory that it could write,
-        and it has written no more than a report takes."""
+        """Checks with the kernel's data: the process has no file open for writing except the camera and the report, no socket and no
+        writable shared memory, and it has written no more bytes than a report has."""
         files = self.bench.machine.check(f"cd /proc/{process}/fd; for f in *; do echo $(grep flags ../fdinfo/$f) $(readlink $f); done")
         opened = re.findall(r"flags: (\d+) (.+)", files)
         self.assertTrue(any(path == "/dev/video0" for _, path in opened), f"it has no camera open: {opened}")

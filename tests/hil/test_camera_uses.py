@@ -1,5 +1,5 @@
-"""The uses of a camera in the emulated machine: the prop's tags replace a lost tracker, the picture turns to the person at the table,
-and a picture that lies beside its place is told. The camera's mock plays what a camera would see there."""
+"""Tests the uses of a camera in the emulated machine: the prop's tags replace a lost tracker, the picture turns to the person at the table,
+and a picture that lies beside its place is reported. The camera's mock plays the picture that a camera would see there."""
 
 import math
 import pathlib
@@ -21,7 +21,7 @@ kind = "v4l2"
 rate_hz = 15.0
 exposure_ms = 8.0
 """
-SMALL = (160, 120)  # an emulated processor looks for tags and heads in it
+SMALL = (160, 120)  # small, because an emulated processor searches it for tags and heads
 ARTIFACT = "amphora"
 TOLD_S = 30.0
 
@@ -31,7 +31,7 @@ def pose_of(place_m, yaw):
 
 
 class CameraUse(HilTest):
-    """The exhibit with a camera of this view, which sees `at_first()` at the start."""
+    """The exhibit with a camera of the view `view`, which sees `at_first()` at the start."""
 
     view: View
 
@@ -77,7 +77,7 @@ class Tags(CameraUse):
     settings = (USUAL + CAMERA + "tags = true\n" + view.settings()
                 + "tag = [" + ", ".join(tag.settings() for tag in tags) + "]\n")
     first, second = ((0.02, 0.02, 0.0), 0.3), ((-0.05, -0.02, 0.0), -0.2)  # places and turns
-    beside_m = 0.012  # that the tracker has it from where the tags have it
+    beside_m = 0.012  # distance between the tracker's place of the prop and the tags' one
     near_m, near_turn = 0.004, math.radians(1.0)
 
     @classmethod
@@ -87,7 +87,8 @@ class Tags(CameraUse):
     def test_stand_in_for_a_lost_tracker_and_give_the_lead_back(self):
         bench = self.bench
         pose = pose_of((self.second[0][0] + self.beside_m, *self.second[0][1:]), self.second[1])
-        *_, meant = bench.rendered([pose_of(*self.first), pose_of(*self.second), pose], ARTIFACT)  # before the host has other work
+        # Drawn first, before the machine needs the host's processors.
+        *_, meant = bench.rendered([pose_of(*self.first), pose_of(*self.second), pose], ARTIFACT)
         seen_there = tags_seen(self.view, self.tags, *self.second)
         self.show(ARTIFACT)
         bench.place(self.first[0], pose_of(*self.first)[3:])
@@ -109,18 +110,18 @@ class Tags(CameraUse):
         self.assert_glides(self.middle(), screen.centroid(screen.lit(meant), meant.width))
         self.assert_at(pose[:3], pose[3:], ARTIFACT)
         after = bench.status_says("prop_by", "tracker")
-        self.assertGreaterEqual(after["hand_overs"] - before["hand_overs"], 2)  # more where the emulated tracker pauses for 150 ms
+        self.assertGreaterEqual(after["hand_overs"] - before["hand_overs"], 2)  # more if the emulated tracker pauses for 150 ms
 
     def warm_up(self):
-        """Until tags are found in each frame: of its first frame an emulated processor has so much to do that the camera's thread, which keeps to its
-        share, rests for some seconds."""
+        """Waits until tags are found in each frame. The first frame takes an emulated processor so long that the camera's thread, which has
+        a limited share of a core, then rests for some seconds."""
         self.bench.tracker.tell("unplug")
         self.bench.status_says("prop_by", "tags")
         self.bench.tracker.tell("unplug", "off")
         self.bench.status_says("prop_by", "tracker")
 
     def assert_shown_near(self, where):
-        """The picture lies where `render` draws it for the true pose. Only the tags tell the exhibit this pose."""
+        """Checks that the picture lies where `render` draws it for the true pose. The exhibit knows this pose only from the tags."""
         pose = pose_of(*where)
 
         def is_near(placed):
@@ -133,7 +134,7 @@ class Tags(CameraUse):
         print(f"  by the tags: {1e3 * math.dist(found, pose[:3]):.2f} mm from the truth", flush=True)
 
     def assert_glides(self, begin, end):
-        """The tracker is plugged in; the picture is seen at places between `begin` and `end`."""
+        """Plugs the tracker in, and checks that the picture passes places between `begin` and `end`."""
         whole = math.dist(begin, end)
         self.assertGreater(whole, 2 * PIXELS)
         self.bench.tracker.tell("unplug", "off")
@@ -150,7 +151,7 @@ class Tags(CameraUse):
 
 @long
 class Visitor(CameraUse):
-    """A camera at the table's far edge that looks up at those who stand in front."""
+    """A camera at the table's far edge that looks up at the people in front of the table."""
 
     view = View(*SMALL, 80.0, looks(math.radians(20.0), math.pi), (0.0, 0.28, 0.12))
     settings = USUAL + CAMERA + "visitor = true\n" + view.settings()
@@ -196,16 +197,16 @@ class Visitor(CameraUse):
 
     @staticmethod
     def apart_px(one, other):
-        """The largest distance of the middles and edges of lit areas."""
+        """The largest distance of the middles and edges of the two lit areas."""
         a, b = screen.lit(one), screen.lit(other)
         return max(abs(x - y) for x, y in zip((*screen.centroid(a, one.width), *screen.box(a, one.width)),
                                               (*screen.centroid(b, other.width), *screen.box(b, other.width))))
 
 
 class ScreenCamera:
-    """While it is open the camera sees the guest's own screen, as it is now, on a table of wood; no other screendump may be requested.
+    """While it is open, the camera sees the guest's own present screen, on a table of wood; the test must not request a screendump.
 
-    `shift_px`: by how many of the screen's pixels the picture lies to the right of its place."""
+    `shift_px`: distance of the picture to the right of its place, in the screen's pixels."""
 
     pause_s = 0.04
 
@@ -229,7 +230,8 @@ class ScreenCamera:
 
 
 def seen_on_wood(picture, shift_px):
-    """Every fourth pixel of a picture of the screen, to the right by `shift_px` of its own, with bare table above and below."""
+    """Every fourth pixel of a picture of the screen, moved to the right by `shift_px` of the screen's pixels, with bare table above and
+    below."""
     green, width = picture.rgb[1::3], picture.width
     rows = (bytes(shift_px) + green[width * y:width * (y + 1) - shift_px] for y in range(0, picture.height, 4))
     lit = b"".join(row[::4] for row in rows)
@@ -242,8 +244,8 @@ ON_WOOD = bytes(70 + 120 * code // 255 for code in range(256))
 
 @long
 class Drift(CameraUse):
-    """A camera that looks straight down, of which only drift and tags make use. The check takes its time: a look a minute, three to learn, five
-    to tell, five to tell that it is over."""
+    """A camera that looks straight down and is used only for drift and tags. The check is slow: it looks once a minute, and needs three
+    looks to learn, five to report drift, and five to report its end."""
 
     before, after = kept_calibration.KEEP, kept_calibration.FORGET
     view = View(*SMALL, 200.0, kept_calibration.DOWN, (0.0, 0.0, 1.0))
@@ -267,14 +269,15 @@ class Drift(CameraUse):
             status = self.drift_says("moved by 5 mm", 5)
             self.assertTrue(status["drifted"])
             self.assertAlmostEqual(status["drift_mm"], self.shift_mm, delta=0.5)
-            for said in (self.bench.journal(), self.bench.machine.run("frustumscreen status").output):  # its lines are those of the staff's picture
+            # `frustumscreen status` has the same lines as the staff's picture.
+            for said in (self.bench.journal(), self.bench.machine.run("frustumscreen status").output):
                 self.assertIn("moved by 5 mm since the calibration", said)
             camera.shift_px = 0
             status = self.drift_says("the picture lies where it was calibrated", 5)
             self.assertFalse(status["drifted"])
 
     def drift_says(self, words, looks):
-        """Waits for this many looks. It seldom asks, because each question delays the guest."""
+        """Waits for this many looks. It reads the status seldom, because each read delays the guest."""
         begun = self.bench.machine.granted_s()
         deadline = begun + (looks + 2) * self.look_s * Patience.factor
         status = None

@@ -1,5 +1,5 @@
-"""Back to the state of delivery: a signed stick asks for it, a button on the staff's picture confirms it, and the machine starts again
-and knows nothing of the museum."""
+"""Tests the return to the state of delivery: a signed stick requests it, a button on the staff's picture confirms it, and the machine
+restarts without any data of the museum."""
 
 import kept_calibration
 from bench import SETTINGS, UNIT, eventually
@@ -11,8 +11,8 @@ from test_stick_copy import DAY, REQUEST, VISITS
 
 ASKS = b'reset = true\nuntil = "2099-12-31"\n'
 DELIVERED = "/usr/share/frustumscreen/kiosk.toml"
-DATA, KEPT = "/var/lib/frustumscreen", "/var/lib/hil-kept"  # the other tests' packs and words are put aside and brought back
-PRESSED_S = 4.0  # a button is held for two seconds; a slow machine sees it late
+DATA, KEPT = "/var/lib/frustumscreen", "/var/lib/hil-kept"  # packs and words of the other tests are moved away and restored
+PRESSED_S = 4.0  # a button must be held for two seconds; a slow machine notices it late
 
 
 @long
@@ -34,7 +34,7 @@ class Delivery(StickTest):
         machine.check(f"systemctl start --no-block {UNIT}")
 
     def asked(self, name, files):
-        """Puts in a stick with these files, pulls it out again, and returns what the table says about it."""
+        """Puts in a stick with these files, pulls it out again, and returns the report on it."""
         self.plug(name, self.make(name, "vfat", files))
         told = pulled_packs(self.outcome())
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")

@@ -1,5 +1,5 @@
-"""Another graphics card, whose driver comes late and whose projector comes, goes and wants another mode: virtio-gpu, with
-a viewer's window as the projector. The kernel reports it by uevent."""
+"""Tests another graphics card, virtio-gpu: its driver is loaded late, and its projector, a viewer's window, is plugged in, unplugged
+and changes its mode. The kernel reports this by uevent."""
 
 
 import screen
@@ -12,7 +12,7 @@ PLACE_M = (0.1, -0.05, 0.0)
 CARD = f"/dev/dri/by-path/pci-0000:00:{SECOND_SLOT:02x}.0-card"
 WAITED_S = 4.0  # how long it waits for a driver without giving up
 BACK_S = 15.0
-LARGER, SCALE, ABOVE = (800, 600), 1.25, 50  # a larger mode, with the picture as large as it fits
+LARGER, SCALE, ABOVE = (800, 600), 1.25, 50  # a larger mode, with the picture scaled to fit
 
 
 @long

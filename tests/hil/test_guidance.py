@@ -1,8 +1,8 @@
-"""A prop pushed out of the light, or a cube in the hand turned so that a face gets none: the advice comes as a sign and in words on
-the screen, and as speech out of the sound card, in the language of the visitor.
+"""Tests the advice for a prop that is pushed out of the light, and for a cube in the hand that is turned so that a face gets no light: a
+sign and words on the screen, and speech from the sound card, in the visitor's language.
 
-What should be seen and heard comes from the same program without a screen on this machine, which writes files; what is seen is
-the screen, what is heard is QEMU's sound card. Sounds are compared sample by sample.
+The expected pictures and sounds are files that the same program writes on this machine, without a screen. They are compared with the
+guest's screen and the output of QEMU's sound card, sounds sample by sample.
 """
 
 import array
@@ -15,26 +15,26 @@ import screen
 from bench import CUBE_ARTIFACT, UPRIGHT, USUAL, WIDTH, Patience, about, both_turns, eventually, with_cube
 from hil_test import HilTest, long
 
-# Everything that visitors meet, as shipped: captions, pictures and advice on the table, words aloud, five buttons.
+# As shipped, with everything that visitors see and hear: captions, pictures and advice on the table, speech, five buttons.
 WHOLE = (USUAL.replace("captions = false", "captions = true").replace("table_pictures = false", "table_pictures = true")
          .replace("guidance = false", 'guidance = true\nwords = "/var/lib/frustumscreen/words.fswords"')
          .replace('lines = ["0", "1", "2"]', 'lines = ["0", "1", "2", "3", "4"]') + '\n[sound]\ndevice = "plughw:0,0"\n')
-LEFT_OF_THE_LIGHT = (-0.36, 0.0, 0.0)  # the table ends at -0.4: a part of the artifact is in the dark, for the eye in front too
+LEFT_OF_THE_LIGHT = (-0.36, 0.0, 0.0)  # the table ends at -0.4, so a part of the artifact is dark, also for the eye in front
 PUSHED = (*LEFT_OF_THE_LIGHT, *UPRIGHT)
 CENTRE = (0.0, 0.0, 0.0, *UPRIGHT)
-LIT_CUBE = (0.0, 0.05, 0.10, *about(1, 0, 0, -30))  # tipped so that the one face that is seen looks up
-DARK_CUBE = (*LIT_CUBE[:3], *both_turns(about(0, 0, 1, 30), LIT_CUBE[3:]))  # its left side is seen, and stands upright
+LIT_CUBE = (0.0, 0.05, 0.10, *about(1, 0, 0, -30))  # tilted so that the only visible face points up
+DARK_CUBE = (*LIT_CUBE[:3], *both_turns(about(0, 0, 1, 30), LIT_CUBE[3:]))  # its left side is visible too, and is vertical
 REPLAYED_S, REPLAYED_HZ = 9.0, 60.0
 PUSHED_S = 1.0  # when the prop leaves the light in the replay
-STILLS = 3  # in the middle of each third: before there is a sign, then with it, at last with the words that are said
+STILLS = 3  # one in the middle of each third of the replay: before the sign, with the sign, with the spoken words
 LANGUAGES = ("en", "de")
 LANGUAGE, HELP = 2, 4  # buttons
 FAULTS = ("drop 0.2", "duplicate 0.3", "reorder 0.2")
-STAGES_S = (0.4, 1.5, 3.0)  # docs/guidance.md: until the sign, from there until the words, from there until the voice
+STAGES_S = (0.4, 1.5, 3.0)  # docs/guidance.md: time until the sign, from the sign until the words, from the words until the voice
 HEADER_BYTES = 44
 PIECE = 2400  # samples, 50 ms
 LOUD = 300
-WHOLE_SHARE = 0.95  # of the pieces; the first and the last are faded
+WHOLE_SHARE = 0.95  # of the pieces must be heard; the first and the last are faded
 TALKS_S = 60.0
 CALM_S = 4.0
 SOUNDS = "its sound goes to"
@@ -45,8 +45,8 @@ SOUND_DRIVER = "/sys/bus/pci/drivers/snd_hda_intel"
 class Told:
     """The pictures and sounds for a visitor in one language, made by the program on this machine."""
 
-    before: list  # lit pixels, before the advice
-    after: list  # the same once it is given
+    before: list  # lit pixels before the advice
+    after: list  # lit pixels once it is given
     samples: array.array
 
 
@@ -55,13 +55,13 @@ def without(rows, others):
 
 
 def spoken(samples):
-    """Without the silence before and after."""
+    """The samples without the silence before and after the speech."""
     loud = [k for k, sample in enumerate(samples) if abs(sample) > LOUD]
     return samples[loud[0]:loud[-1] + 1] if loud else samples[:0]
 
 
 def replay(lit, dark):
-    """A prop at one pose, then at the other."""
+    """A pose file of a prop at one pose, then at the other."""
     rows = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
     for k in range(round(REPLAYED_S * REPLAYED_HZ)):
         pose = dark if k >= PUSHED_S * REPLAYED_HZ else lit
@@ -86,7 +86,7 @@ def told_here(bench, language, settings, lit, dark):
 
 
 class Advised(HilTest):
-    """What is seen and heard of the advice, for a prop that goes from a place in the light to one in the dark."""
+    """Tests the visible and audible advice for a prop that moves from a lit pose to a dark one."""
 
     artifact, lit, dark = "amphora", CENTRE, PUSHED
 
@@ -95,10 +95,10 @@ class Advised(HilTest):
         super().setUpClass()
         cls.told = {language: told_here(cls.bench, language, cls.settings, cls.lit, cls.dark) for language in LANGUAGES}
         first, second = (cls.told[language].after for language in LANGUAGES)
-        cls.words = {"en": without(first, second), "de": without(second, first)}  # pixels that one language alone has
+        cls.words = {"en": without(first, second), "de": without(second, first)}  # pixels that only one language has
         others = [artifact | a | b for artifact, a, b in zip(cls.told["en"].before, *cls.words.values())]
         sign = without([a & b for a, b in zip(first, second)], screen.grown(others, 6, WIDTH))
-        cls.sign_place = screen.grown(sign, 8, WIDTH)  # it moves a little
+        cls.sign_place = screen.grown(sign, 8, WIDTH)  # the sign moves a little
         cls.sign_pixels = screen.count(sign)
 
     def setUp(self):
@@ -118,10 +118,10 @@ class Advised(HilTest):
 
     def sign_is_there(self):
         lit = [row & place for row, place in zip(screen.lit(self.bench.screendump()), self.sign_place)]
-        return screen.count(lit) > self.sign_pixels / 2  # a part of the artifact may be there
+        return screen.count(lit) > self.sign_pixels / 2  # half, because some lit pixels may be of the artifact
 
     def words_are_there(self, language):
-        """All the pixels that this language alone has are lit, and most of the other's are not."""
+        """Whether all pixels that only this language has are lit, and most of the other language's are not."""
         lit = screen.lit(self.bench.screendump())
         other = next(each for each in LANGUAGES if each != language)
         return (screen.share_outside(self.words[language], screen.grown(lit, 1, WIDTH)) < 0.05
@@ -133,13 +133,12 @@ class Advised(HilTest):
     # The sound card's output.
 
     def heard(self):
-        """The left channel of all that has come out of the sound card."""
+        """The left channel of the sound card's whole output."""
         samples = self.bench.machine.heard.read_bytes()[HEADER_BYTES:]
         return array.array("h", samples[:len(samples) // 4 * 4])[0::2]
 
     def share_heard(self, language, since):
-        """The share of the pieces of this language's advice that were heard, sample by sample, one after the other, after so
-        many samples."""
+        """The share of the pieces of this language's advice that occur, unchanged and in order, in the output after `since` samples."""
         heard, expected = self.heard()[since:].tobytes(), self.told[language].samples
         place, found, count = 0, 0, 0
         for begin in range(0, len(expected) - PIECE, PIECE):
@@ -153,7 +152,7 @@ class Advised(HilTest):
         return any(abs(sample) > LOUD for sample in self.heard()[since:])
 
     def hears(self, language, since):
-        """This language's advice, whole, and no other: at most the end of one that was being said before."""
+        """Checks that this language's advice is heard completely, and of another language at most the end of advice that began before."""
         share = [0.0]
 
         def said():
@@ -168,14 +167,14 @@ class Advised(HilTest):
     # The visitor.
 
     def take_language(self, language):
-        """Holds the button until it has done its work, which a slow guest takes long to see."""
+        """Holds the button until the language has changed, because a slow guest notices it late."""
         if self.bench.status()["language"] != language:
             self.bench.buttons.tell("hold", LANGUAGE)
             self.bench.status_says("language", language)
             self.bench.buttons.tell("release", LANGUAGE)
 
     def goes_when_it_is_lit(self):
-        """The prop is put back into the light: sign and voice end."""
+        """Puts the prop back into the light, and checks that sign and voice end."""
         self.put(self.lit)
         self.bench.picture_of(self.lit)
         eventually(lambda: not self.sign_is_there(), TALKS_S, "the sign stays although everything is lit")
@@ -188,7 +187,7 @@ class Guidance(Advised):
     settings = WHOLE
 
     def test_advice_in_the_language_of_the_button(self):
-        """The same while the tracker drops, doubles and reorders its samples."""
+        """The advice comes although the tracker drops, doubles and reorders its samples."""
         self.take_language("en")
         self.addCleanup(self.bench.tracker.tell, "good")
         for fault in FAULTS:
@@ -213,13 +212,13 @@ class Guidance(Advised):
         silent = len(self.heard())
         self.bench.machine.check("echo 1 > /sys/bus/pci/rescan")
         self.bench.status_says("sound", SOUNDS)
-        self.bench.buttons.tell("hold", HELP)  # by itself it would wait for its pause, which has grown
+        self.bench.buttons.tell("hold", HELP)  # otherwise the advice would wait for its pause, which has grown
         self.hears("en", silent)
         self.assertTrue(self.sign_is_there(), "the sign is gone although it was not followed")
         self.assertTrue(self.words_are_there("en"), "the words are gone although they were not followed")
 
     def test_help_comes_before_its_time(self):
-        """The help button gives all stages at once, counted from the push: the exhibit cannot know of it earlier."""
+        """The help button gives all stages at once. Times count from the push, before which the exhibit cannot give advice."""
         self.take_language("en")
         pushed = self.artifact_at_its_place()
         since = len(self.heard())
@@ -245,13 +244,13 @@ class Guidance(Advised):
         self.hears("en", since)
 
     def artifact_at_its_place(self):
-        """True if the screen shows the artifact at the place to which the prop was pushed."""
+        """A function that returns whether the screen shows the artifact at the place to which the prop is pushed."""
         there = screen.lit(self.bench.rendered([(*LEFT_OF_THE_LIGHT, *UPRIGHT)], "amphora")[0])
         return lambda: screen.share_outside(there, screen.grown(screen.lit(self.bench.screendump()), 4, WIDTH)) < 0.05
 
 
 class CubeInTheHand(Advised):
-    """Figure 12 of Kim et al. 2008: the visitor turns the cube, a face that they see gets no light, and they turn it back."""
+    """The case of Figure 12 of Kim et al. 2008: the visitor turns the cube so that a visible face gets no light, and turns it back."""
 
     settings, artifact = with_cube(WHOLE), CUBE_ARTIFACT
     lit, dark = LIT_CUBE, DARK_CUBE

@@ -1,5 +1,5 @@
-"""The exhibit sleeps and wakes by its timetable, with the guest's clock set from outside: the connector's DPMS as the kernel has it, and
-the screen."""
+"""Tests that the exhibit sleeps and wakes by its timetable. The test sets the guest's clock, and checks the connector's DPMS state in the
+kernel and the screen."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""After all tests the guest's kernel has reported no fault."""
+"""Tests, after all other tests, that the guest's kernel has reported no fault."""
 
 from hil_test import HilTest
 

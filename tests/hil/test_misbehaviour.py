@@ -1,7 +1,7 @@
-"""The tracker misbehaves: the picture does not freeze, shows no pose that was not sent, and the state is reported.
+"""Tests faults of the tracker: the picture does not freeze, no pose is shown that was not sent, and the fault is reported.
 
-The prop goes to and fro on a straight line through the table's centre all the while. So whatever is shown must be one of the
-pictures that `render` draws along this line; and where the poses stop, the artifact that turns at the table's centre.
+The prop moves to and fro on a straight line through the table's centre. So every picture must be one of those that `render` draws along
+this line, or, while no poses come, the artifact that turns at the table's centre.
 """
 
 import bisect
@@ -17,18 +17,18 @@ ARTIFACT = "amphora"
 REACH_M = 0.12
 STROKE_S = 3.0
 PLAYED_HZ = 240
-OVERSHOOT_M = 0.02  # by the prediction, where the prop turns back
+OVERSHOOT_M = 0.02  # of the predicted place when the prop turns back
 STEP_M = 0.002  # between two pictures along the line: 1.6 pixels
 TURNS = 24
-BESIDE_PX = 2  # largest distance between what is shown and the nearest of the pictures
-FOLLOWING_PX = 10  # between two places of a prop that is followed; it moves on by more in a fifth of a second
+BESIDE_PX = 2  # largest distance between the shown picture and the nearest allowed one
+FOLLOWING_PX = 10  # between two pictures of a prop that is followed, at least; it moves by more in a fifth of a second
 BESIDE_SHARE = 0.01  # the share of the lit pixels that may be further away
 FAULT_S = 4.0
 AFTER_S = 2.0
 CALM_S = 1.5
 
 RUNNING = "is running"
-# what the tracker does, what the status says about it, and whether poses still come
+# name: (commands to the tracker, the status's words about it, whether poses still come)
 FAULTS = {
     "noise": (("drop 0.2", "corrupt 0.15", "duplicate 0.3", "reorder 0.2"), RUNNING, True),
     "drop": (("drop 0.3",), RUNNING, True),
@@ -92,7 +92,7 @@ class Allowed:
         return screen.count(rows) > 0 and screen.share_outside(rows, allowed) <= BESIDE_SHARE
 
     def sent(self, rows):
-        """True if it is exactly the picture of a place on the line."""
+        """True if the picture is that of a place on the line."""
         if not any(rows):
             return False
         x = screen.centroid(rows, self._width)[0]
@@ -104,7 +104,7 @@ class Allowed:
         return self._inside(rows, self._turning)
 
     def fading(self, rows):
-        """True if the picture is one of the two, or a darker version of one of them."""
+        """True if the picture is of one of the two kinds, or a darker version of one."""
         return screen.share_outside(rows, self._anywhere) <= BESIDE_SHARE
 
 
@@ -134,7 +134,7 @@ class Misbehaviour(HilTest):
             self.settle(self.allowed.turning, "without poses the artifact does not turn at the table's centre")
             self.look(CALM_S, self.allowed.turning)
         self.bench.tracker.tell("good")
-        if "unplug 1s" in commands:  # what it says while it is set up stands until it is plugged in again
+        if "unplug 1s" in commands:  # a message about its set-up stays until it is plugged in again
             self.bench.tracker.tell("unplug", "1s")
         self.bench.status_says("tracker", RUNNING)
         self.settle_following("the prop is not followed again")
@@ -144,8 +144,8 @@ class Misbehaviour(HilTest):
         eventually(lambda: is_right(screen.lit(self.bench.screendump())), 10.0, otherwise)
 
     def settle_following(self, otherwise):
-        """Waits for pictures of two places on the line, none else between them. One is not enough: the artifact that turns at the
-        centre looks like the prop there."""
+        """Waits for pictures of two places on the line, with no other picture between them. One is not enough, because the artifact that
+        turns at the centre looks like the prop there."""
         places = []
 
         def is_following():
@@ -160,7 +160,7 @@ class Misbehaviour(HilTest):
         eventually(is_following, 10.0, otherwise)
 
     def look(self, seconds, is_right, rests=False):
-        """Looks for `seconds`: no picture freezes, and each is right."""
+        """Watches for `seconds`: no picture may freeze, and each must be allowed."""
         for picture in self.watch(seconds, rests).pictures:
             if not is_right(screen.lit(picture)):
                 folder = self.bench.evidence_of(self)

@@ -1,5 +1,5 @@
-"""The machine starts without some of its devices: it lights up all the same, says what is missing, and takes what comes late. A
-projector that is missing or late: test_restart.py, test_display.py."""
+"""Tests starts of the machine without some of its devices: the exhibit is lit, names the missing device, and uses it when it appears. For a
+projector that is missing or late see test_restart.py and test_display.py."""
 
 import json
 
@@ -15,10 +15,10 @@ NO_TRACKER, NO_PANEL, NO_SOUND = "no tracker is connected", "it is not there", "
 
 
 class Anew(HilTest):
-    """Tests that start the machine; what was on its disk stays."""
+    """Tests that restart the machine; the data on its disk stay."""
 
     def start_anew(self):
-        self.bench.machine.check("sync")  # a reset loses what is not on the disk yet, such as the settings of this class
+        self.bench.machine.check("sync")  # a reset loses data that are not yet on the disk, such as the settings of this class
         self.bench.machine.may_start_anew()
         self.bench.machine.monitor("system_reset")
         self.assertTrue(self.bench.machine.resets_within(SYSTEM_BACK_S), "the machine does not start anew")
@@ -42,7 +42,7 @@ class Missing(Anew):
         self.addCleanup(self.bench.tracker.tell, "unplug", "off")
 
     def assert_not_well(self, device, sentence):
-        """The status file says what is missing, and `frustumscreen status` names it in its first line, as its verdict."""
+        """Checks that the status file names the missing device, and that the first line of `frustumscreen status` does so too."""
         self.bench.status_says(device, sentence)
         ran = self.bench.machine.run("frustumscreen status --json")
         verdict = json.loads(ran.output)
@@ -104,7 +104,7 @@ class Missing(Anew):
 @long
 class StickAtTheStart(StickTest, Anew):
     def test_stick_is_in_from_the_start(self):
-        """The exhibit takes such a stick like one that is put in later, and still has its artifact after another start."""
+        """A stick that is in from the start is imported like a later one, and its artifact is still there after another start."""
         self.plug("early", self.make("early", "vfat", {"nautilus-cup.fspack": self.signed("nautilus-cup", 1)}))
         self.start_anew()
         self.last = None

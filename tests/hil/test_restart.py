@@ -1,4 +1,4 @@
-"""Systemd brings the exhibit back whatever stops it: SIGTERM, SIGKILL, SIGSTOP, a hung device thread or renderer."""
+"""Tests that systemd restarts the exhibit after SIGTERM, SIGKILL and SIGSTOP, and when a device's thread or the renderer hangs."""
 
 import time
 
@@ -74,7 +74,7 @@ class Restart(HilTest):
         self.assert_restarted()
 
     def test_card_that_udev_has_not_given_yet(self):
-        """As at the first boot: the exhibit starts before its user may open the card, and waits."""
+        """The exhibit starts before its user may open the card, as at the first boot, and waits."""
         machine = self.bench.machine
         machine.check(f"systemctl stop {UNIT}; chmod 600 {CARD}; systemctl start --no-block {UNIT}")
         shown = f"systemctl show --value -p StatusText {UNIT}"

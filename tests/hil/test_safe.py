@@ -1,4 +1,4 @@
-"""The safe picture: the exhibit gives it the screen, it follows the projector and its reason, and gives the screen back."""
+"""Tests the safe picture: it takes the screen from the exhibit, follows the projector and its reason, and gives the screen back."""
 
 import pathlib
 import subprocess
@@ -29,7 +29,7 @@ class Safe(HilTest):
         self.bench.machine.check(f"systemctl start {SAFE}")
 
     def drawn(self, reason, width=WIDTH, height=HEIGHT):
-        """The program's picture on this machine, without the last line, which has the computer's uptime."""
+        """The picture that the program draws on this machine, without the last line, which has the computer's uptime."""
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "reason").write_text(reason, encoding="utf-8")
             subprocess.run([self.bench.program.parent / "frustumscreen-safe", "--png", f"{folder}/safe.png",

@@ -1,5 +1,5 @@
-"""The projector and the screen behind the table at two connectors of one card, virtio-gpu, with a viewer's window for each. One is
-pulled and put back while the other goes on; both pictures are compared with those of `frustumscreen render`."""
+"""Tests the projector and the screen behind the table at two connectors of one card, virtio-gpu, with a viewer's window for each. One is
+unplugged and plugged in again while the other goes on; both pictures are compared with those of `frustumscreen render`."""
 
 import screen
 from bench import EYE_M, HEIGHT, UNIT, UPRIGHT, USUAL, WIDTH, eventually
@@ -8,7 +8,7 @@ from machine import SECOND_SLOT
 
 ARTIFACT = "amphora"
 CARD = f"/dev/dri/by-path/pci-0000:00:{SECOND_SLOT:02x}.0-card"
-PROJECTOR, SCREEN = "Virtual-2", "Virtual-3"  # of the machine's connectors the second and the third
+PROJECTOR, SCREEN = "Virtual-2", "Virtual-3"  # the machine's second and third connector
 SCREEN_WIDTH, SCREEN_HEIGHT = WIDTH, HEIGHT  # a mode that the emulated card lists
 PLACES_M = ((0.1, -0.05, 0.0), (-0.1, -0.05, 0.0))
 EYES_M = (EYE_M, (0.25, -0.5, 0.55))
@@ -18,7 +18,7 @@ BACK_S = 30.0
 
 
 def room(packs):
-    """Two objects behind the screen's plane and before it, which stay there whatever the prop shows."""
+    """A room of two objects, which stay in it whatever artifact the prop shows."""
     return (f'[[object]]\npack = "{packs}/amphora.fspack"\nartifact = "elsewhere"\nplace_m = [-0.3, 1.1, 0.2]\nsize_m = 0.45\n'
             f'[[object]]\npack = "{packs}/nautilus-cup.fspack"\nartifact = "elsewhere"\nplace_m = [0.25, 0.6, 0.2]\nsize_m = 0.3\n')
 

@@ -1,4 +1,4 @@
-"""Settings on a stick: taken, the exhibit starts again with them and says so; unsigned, wrong and unusable ones change nothing."""
+"""Tests settings on a stick: the exhibit restarts with them and says so; unsigned, wrong and unusable ones change nothing."""
 
 import screen
 from bench import SETTINGS, UPRIGHT, USUAL, WIDTH, eventually
@@ -7,8 +7,8 @@ from stick_bench import StickTest, pulled_packs
 
 WORDS = 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"'
 RESTART_S = 90.0
-START_S = 120.0  # so long the exhibit may take with new settings, before those of before are put back
-TOLD_S = 180.0  # the table tells for two minutes
+START_S = 120.0  # the exhibit may take so long with new settings before the previous ones are restored
+TOLD_S = 180.0  # the table shows the report for two minutes
 TOLD_PIXELS = 300
 
 
@@ -21,7 +21,7 @@ class SettingsByStick(StickTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.bench.machine.write(SETTINGS, cls.settings)  # no key yet: that comes with the stick
-        # The other artifact alone, and the museum's key
+        # Settings with only the other artifact, and with the museum's key
         amphora = '"/var/lib/frustumscreen/packs/amphora.fspack", '
         assert amphora in cls.settings
         cls.brought = cls.settings.replace(amphora, "") + cls.keys

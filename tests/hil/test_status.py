@@ -1,4 +1,4 @@
-"""The staff's access to a kiosk: its picture over the local socket, only for the staff's group."""
+"""Tests the staff's access to a kiosk: its picture over the local socket, only for the staff's group."""
 
 import base64
 import pathlib
@@ -21,7 +21,7 @@ class Status(HilTest):
         return self.bench.machine.run(f"setpriv --reuid={user} --regid={user} --init-groups {PROGRAM} {options}")
 
     def test_screenshot_for_the_staff(self):
-        """It is the picture on the screen, to the pixel, without the code in its corner."""
+        """The screenshot equals the picture on the screen, to the pixel, except for the code in its corner."""
         on_screen = self.bench.picture_of((*CENTRE_M, *UPRIGHT))
         complaint = self.run_as(STAFF, "--screenshot /run/hil/pictures/now.png >/dev/null").output
         self.assertEqual(complaint, "")

@@ -1,5 +1,5 @@
-"""Stereo: a cube in the hand, its sensor and that of the glasses played by the tracker's mock. Each half of the screen shows what one
-eye sees; glasses that lie still get one eye's picture in both halves; the alignment pattern says which eye sees which half.
+"""Tests stereo with a cube in the hand; the tracker's mock plays the sensors of cube and glasses. Each half of the screen has one eye's
+picture; with glasses that lie still both halves have the same picture; the alignment pattern shows which eye sees which half.
 """
 
 import pathlib
@@ -22,14 +22,14 @@ LOOKS = (
     ((0.05, 0.03, 0.15, *about(0.6, 0.0, 0.8, 35)), (0.15, -0.45, 0.45, *about(0, 0, 1, 25))),
     ((-0.06, 0.0, 0.12, *about(1, 0, 0, -40)), (-0.12, -0.45, 0.50, *about(0, 0.6, 0.8, -20))),
 )
-MIN_APART = 0.02  # share of an eye's lit pixels that the other does not have; the pictures lie within some pixels anyhow
+MIN_APART = 0.02  # share of an eye's lit pixels that the other's picture lacks; it is small, because the pictures are some pixels apart
 NODDED_M = 0.004  # a head that moves wears the glasses
 NOD_S = 0.4
-SETTLED_S = 1.0  # for the filter to come to rest, and the second eye to come
+SETTLED_S = 1.0  # until the filter rests and the second eye's picture comes
 WORN_S = 60.0
 BESIDE_THE_LETTERS = (-0.2, 0.0, 0.0)  # the prop's edges are drawn over them
-MAX_ROUNDED = 20  # pixels: a driver rounds otherwise in another part of the screen; two eyes differ in hundreds
-LYING_S = 30.0  # glasses lie after six seconds
+MAX_ROUNDED = 20  # pixels: a driver may round differently in another part of the screen; the pictures of two eyes differ in hundreds
+LYING_S = 30.0  # glasses count as lying after six seconds
 
 
 def half_of(picture, eye):
@@ -86,7 +86,7 @@ class Stereo(HilTest):
                 self.shows_lying(pose, head)
 
     def shows_worn(self, pose, head, eyes):
-        """Each half is its eye's picture while the head nods now and then."""
+        """Checks that each half is its eye's picture while the head nods from time to time."""
         why = [""]
 
         def are_shown():
@@ -107,7 +107,7 @@ class Stereo(HilTest):
         eventually(are_shown, WORN_S, lambda: f"a half is not its eye's picture: {why[0]}")
 
     def shows_lying(self, pose, head):
-        """The head's sensor does not move any more: both halves become the picture of the point between the eyes."""
+        """When the head's sensor stops moving, both halves become the picture of the point between the eyes."""
         seen = []
 
         def are_equal():
@@ -129,7 +129,7 @@ class Stereo(HilTest):
             self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
 
     def has_letters(self):
-        """The halves differ in two letters alone: one that only the left half has, and to the right of it one of the right half."""
+        """Whether the halves differ only in two letters: one of the left half only, and to its right one of the right half only."""
         left, right = (screen.lit(half_of(self.bench.screendump(), eye)) for eye in (0, 1))
         letters = [[row & ~other for row, other in zip(mine, others)] for mine, others in ((left, right), (right, left))]
         boxes = [screen.box(letter, HALF) for letter in letters]

@@ -1,4 +1,4 @@
-"""Sticks with packs: put in, the artifacts change on the screen and in the status; unsigned, pulled out half-way, two at once."""
+"""Tests sticks with packs: artifacts change on the screen and in the status; unsigned packs, a stick pulled out half-way, two sticks."""
 
 import kept_calibration
 import sticks
@@ -7,15 +7,15 @@ from hil_test import CENTRE_M, long
 from stick_bench import IMPORT_S, LIBRARY, TOLD_PIXELS, ToldStickTest, pulled_packs
 
 LARGE_MIB = 8
-SLOW_BYTES_PER_S = 700_000  # of it: a dozen seconds
-SHOWN_S = 90.0  # until the exhibit has the new set: it is opened beside it, and comes between two artifacts
+SLOW_BYTES_PER_S = 700_000  # the pack then takes a dozen seconds
+SHOWN_S = 90.0  # until the exhibit shows the new set, which it opens in the background and takes between two artifacts
 
 
 class Stick(ToldStickTest):
     before, after = kept_calibration.KEEP, kept_calibration.FORGET
 
     def told_by_exhibit(self, import_id):
-        """The status of this import; None: none yet."""
+        """The exhibit's status of this import; None: it has none yet."""
         told = (self.bench.status() or {}).get("import") or {}
         return told if told.get("import_id") == import_id and told.get("stage") in ("done", "failed") else None
 
@@ -37,7 +37,7 @@ class Stick(ToldStickTest):
         told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
         self.assertEqual(told["stage"], "done")
         eventually(lambda: self.told_on_table("stick_told") > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
-        self.bench.buttons.tell("press", 2, "300ms")  # what the table says of the stick ends, and nothing else happens
+        self.bench.buttons.tell("press", 2, "300ms")  # this only ends the table's message on the stick
         eventually(lambda: self.told_on_table() == 0, 20.0, "what the table says stays")
         self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
         self.assert_at(CENTRE_M, artifact="nautilus-cup")
@@ -79,7 +79,7 @@ class Stick(ToldStickTest):
 
     @long
     def test_6_usb_attached_scsi(self):
-        """Fast sticks and disks in enclosures speak another protocol, for which the kernel has another driver."""
+        """Fast sticks and disks in enclosures use another protocol (UAS), for which the kernel has another driver."""
         self.plug("fast", self.make("fast", "exfat", {"amphora.fspack": self.signed("amphora", 7)}), driver="usb-uas")
         self.assertEqual(pulled_packs(self.outcome()), {"amphora.fspack": ("taken", "none")})
         self.assertIn("uas", self.bench.machine.check("cat /sys/bus/usb/drivers/uas/*:*/uevent"))

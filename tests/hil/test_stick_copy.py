@@ -1,4 +1,4 @@
-"""A kiosk's copy: out onto a stick with a signed request or by the staff's buttons, and into a kiosk that knows nothing of the museum."""
+"""Tests a kiosk's copy: written onto a stick by a signed request or the staff's buttons, and imported into a kiosk without museum data."""
 
 import pathlib
 import subprocess
@@ -17,10 +17,10 @@ DAY = "/var/lib/frustumscreen/counts/2026-01-05.json"
 VISITS = ('{"frustumscreen_counts": 1, "day": "2026-01-05", "hours": [{"hour": 10, "visits": 3, "ms": 184000}], '
           '"artifacts": [{"name": "Amphora", "visits": 3, "ms": 184000}], "languages": [{"name": "en", "visits": 3, "ms": 184000}]}\n')
 CALIBRATION = f"cat {kept_calibration.FOLDER}/calibration-*.toml"
-# The table's sentences need words: tests/exhibit has them. test_delivery.py has the state of delivery.
+# The table's sentences need the words file, so tests/exhibit checks them. test_delivery.py checks the state of delivery.
 FORGET = f"{kept_calibration.FORGET}; rm -f {DAY} {SETTINGS}.* {LIBRARY}/set.txt; rm -rf {LIBRARY}/packs"
 RESTART_S = 90.0
-PAGES_TO_COPY = 6  # of the staff's picture, from the first
+PAGES_TO_COPY = 6  # of the staff's picture, from the first page to the copy's
 STAGES = ("found", "copying", "may_take_out", "done", "failed")
 
 
@@ -41,7 +41,7 @@ class StickCopy(StickTest):
 
     @classmethod
     def sign(cls, pack, serial):
-        """Signs a file that is no pack: the signature is a file beside it."""
+        """Signs a file that is not a pack; the signature is a file beside it."""
         super().sign(pack, serial)
         return pack.with_name(pack.name + ".minisig") if pack.suffix != ".fspack" else pack
 
@@ -104,7 +104,7 @@ class StickCopy(StickTest):
         self.assertEqual({pathlib.PurePath(name).parent.name for name in found}, {folder})
         written = {pathlib.PurePath(name).name: content for name, content in found.items()}
         self.assertEqual(set(written), set(self.written))
-        for name in set(written) - {"settings.toml", "counts.csv", COPY}:  # visits go on
+        for name in set(written) - {"settings.toml", "counts.csv", COPY}:  # visits are still counted
             self.assertEqual(written[name], self.written[name], name)
         # Comments are left out.
         self.assertEqual(*(tomllib.loads(files["settings.toml"].decode()) for files in (written, self.written)))

@@ -1,5 +1,5 @@
-"""Sticks that mean harm, plugged in: refused in one line each by the importer as the kiosk runs it, locked in and within its memory,
-and a good stick is taken afterwards. tests/import has more of them, without the machine."""
+"""Tests hostile sticks in the emulated machine: the kiosk's importer, in its sandbox and within its memory, refuses each in one line, and
+takes a good stick afterwards. tests/import has more of them, without the machine."""
 
 import random
 import re
@@ -10,12 +10,12 @@ import sticks
 from hil_test import long
 from stick_bench import IMPORT_S, QUIET, LongStickTest, pulled_packs
 
-import hostile_cases  # isort: skip; stick_bench says where
+import hostile_cases  # isort: skip; stick_bench adds its folder to the path
 import plain_pack  # isort: skip
 
 MOST_MIB = 64.0
 MOST_WORK_S = 2.0
-REFERENCE_STEPS = 300_000  # counted by the shell, which the image has too, to compare the processors
+REFERENCE_STEPS = 300_000  # of a loop in the shell, which runs here and in the image, to compare the processors
 MEASURED = "/run/measured"
 # The maximum memory and the processor time of each unit that handles a stick, sampled until the unit ends.
 MEASURE = f"""while sleep 0.2; do
@@ -68,7 +68,7 @@ class HostileSticks(LongStickTest):
         return work_s(cls.bench.machine.check(command)) / work_s(here)
 
     def told_of(self, image):
-        """The report on this stick, the set after it, and what its units took at most: MiB, seconds of the processor together."""
+        """The report on this stick, the set after it, the peak memory of its units in MiB, and their processor seconds together."""
         self.forget()
         self.bench.machine.check(f"rm -f {MEASURED}")
         self.plug("hostile", image)

@@ -1,4 +1,4 @@
-"""A report on a stick that asks for one: what is on the stick afterwards, read on the host by mtools, and what is told where it cannot be written."""
+"""Tests a stick that requests a report: the files on it afterwards, read on the host by mtools, and the message if it cannot be written."""
 
 import json
 import pathlib
@@ -11,8 +11,8 @@ from hil_test import long
 from stick_bench import TOLD_PIXELS, ToldStickTest, pulled_packs
 
 REQUEST = "frustumscreen-report.toml"
-REPORT_S = 150.0  # as long as an import, and a journal read by a slow processor
-SLOW_BYTES_PER_S = 20_000  # of the journal: some ten seconds
+REPORT_S = 150.0  # for an import, and for reading the journal with a slow processor
+SLOW_BYTES_PER_S = 20_000  # the journal then takes some ten seconds
 FILES = {"version.txt", "status.txt", "status.json", "settings.txt", "faults.txt", "journal.txt"}  # counts.csv if there were visits
 
 
@@ -44,7 +44,7 @@ class StickReport(ToldStickTest):
         self.assertEqual(self.bench.main_process(), self.process, "the exhibit was restarted")
 
     def asking(self, name, kind="vfat", more=None):
-        """The image of a stick that asks for a report."""
+        """The image of a stick that requests a report."""
         return self.make(name, kind, {REQUEST: b"", **self.own, **(more or {})})
 
     def assert_own_files(self, image):
@@ -55,7 +55,7 @@ class StickReport(ToldStickTest):
         return found
 
     def not_written(self, image, untouched=True, **how):
-        """The report on a stick: (refusal, sentence). `untouched`: its bytes do not change."""
+        """The importer's report on a stick: (refusal, sentence). `untouched`: the stick's bytes must not change."""
         held = image.read_bytes()
         self.plug("refused", image, **how)
         report = self.outcome(REPORT_S)

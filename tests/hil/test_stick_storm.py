@@ -1,5 +1,5 @@
-"""Sticks and disks that fail: pulled out a hundred times, the power of the library's disk cut twenty times, damaged file systems,
-slow and changing sticks. Whatever happens, the set is the old one or the new one, whole, the exhibit goes on, and the next stick is
+"""Tests sticks and disks that fail: a stick pulled out a hundred times, the power of the library's disk cut twenty times, damaged file
+systems, slow and changing sticks. In each case the old set or the new one is there, whole, the exhibit goes on, and the next stick is
 taken."""
 
 import os
@@ -17,9 +17,9 @@ CUTS = int(os.environ.get("FRUSTUMSCREEN_HIL_CUTS", "20"))
 CHANGING_MIB = 2
 DAMAGED_EACH = 5
 SLOW_READ_S = 5.0
-CHANGING_READ_S = 0.01  # so that there is time to read it twice
-GIVEN_UP_S = 180.0 + 60.0  # docs/technicians.md: the system gives up a stick that answers too slowly after three minutes
-LIBRARY_MIB = 96  # 64 stay free
+CHANGING_READ_S = 0.01  # slow enough for a second read before the import ends
+GIVEN_UP_S = 180.0 + 60.0  # docs/technicians.md: after three minutes the system gives up a stick that answers too slowly
+LIBRARY_MIB = 96  # of which the importer leaves 64 free
 BY_HAND = "/run/frustumscreen-stick/cut"
 IMPORT = "frustumscreen-import@cut.service"
 
@@ -39,8 +39,8 @@ class StickStorm(LongStickTest):
         self.assertIn(("amphora", serial), self.installed(QUIET))
 
     def pull_at(self, kind, serial, at_read):
-        """Puts a stick in and pulls it out at this read, or when all is over; the set that is installed then, how often the stick was
-        read, why it was refused."""
+        """Puts a stick in and pulls it out at this read, or after the import. Returns the installed set, the number of reads, and the
+        reason of a refusal."""
         disk = nbd.Disk(self.folder / "disk", self.make("pulled", kind, {"vase.fspack": self.signed("amphora", serial)}), tell_at=at_read)
         self.forget()
         try:
@@ -61,7 +61,7 @@ class StickStorm(LongStickTest):
         taken, told = 0, {}
         for number in range(PULLS):
             kind = chance.choice(sticks.KINDS)
-            # Half of the cuts come at any read, half where the importer reads or after it has read everything. The last stick stays in.
+            # Half of the pulls come at any read, half at the importer's own reads or after them. The last stick is pulled after its import.
             first, last = chance.choice(((0.0, 1.0), (0.7, 1.1))) if number + 1 < PULLS else (1.1, 1.1)
             at_read = 1 + round(chance.uniform(first, last) * reads[kind])
             now, _, refusal = self.pull_at(kind, serial + 1, at_read)
@@ -76,7 +76,7 @@ class StickStorm(LongStickTest):
         self.take(serial + 1)
 
     def plug_own(self, name, source, place, options):
-        """A disk of the kiosk's own, mounted by hand."""
+        """Plugs in a disk of the kiosk itself, and mounts it by a command."""
         device = f"/dev/disk/by-id/usb-QEMU_QEMU_HARDDISK_own-{name}-0:0"
         self.bench.machine.plug(name, source, serial=f"own-{name}")
         self.bench.machine.check(f"until test -b {device}; do sleep 0.05; done; mkdir -p {place} && mount -o {options} {device} {place}")
@@ -92,12 +92,12 @@ class StickStorm(LongStickTest):
         self.bench.machine.check("systemd-tmpfiles --create frustumscreen.conf")
 
     def import_by_hand(self):
-        """The importer's own unit, with a stick that stays in: what udev and systemd do before is the same each time."""
+        """Runs the importer's unit with a stick that stays in, because the work of udev and systemd before it is the same each time."""
         self.bench.machine.check(f"rm -f {REPORT_FILE}; systemctl start {IMPORT}")  # --wait needs a bus, and the image has none
         self.bench.machine.check(f"until systemctl show -P ActiveState {IMPORT} | grep -qx -e inactive -e failed; do sleep 0.1; done", QUIET_S)
 
     def cut_after(self, writes, old, survivor, seed):
-        """Imports with a power cut of the library's disk; how many writes it had before and at the end."""
+        """Imports with a power cut of the library's disk; returns the disk's numbers of writes before the import and at its end."""
         disk = nbd.Disk(self.folder / "disk", old, cut_after=writes, seed=seed)
         try:
             self.plug_library(disk.path)
@@ -125,7 +125,7 @@ class StickStorm(LongStickTest):
         chance = random.Random(2)
         new = 0
         for number in range(CUTS):
-            # One in each of as many parts of the import; the last when all is over, and nothing was flushed since.
+            # The import's writes are divided into CUTS parts, with a cut in each; the last cut comes after the import.
             writes = begun + 1 + round((number + chance.random()) * (ended - begun) / CUTS) if number + 1 < CUTS else 1 << 30
             self.cut_after(writes, old, survivor, number)
             shutil.copyfile(survivor, check)
@@ -167,7 +167,7 @@ class StickStorm(LongStickTest):
         self.take(9)
 
     def test_slow_reads(self):
-        """Each read takes five seconds: udev alone needs minutes to find what is on it. It is given up, and the exhibit goes on."""
+        """Each read takes five seconds, so udev alone would need minutes to identify the stick. It is given up, and the exhibit goes on."""
         self.take(1)
         self.forget()
         given_up = "journalctl -b -o cat -u systemd-udevd | grep -c 'sd.*Worker.*killed' || true"
@@ -197,7 +197,7 @@ class StickStorm(LongStickTest):
         self.assertEqual(self.installed(QUIET), [("amphora", 5)])
 
     def test_changing_contents(self):
-        """A second read returns other data: only the checked data is used."""
+        """A second read returns other data; the importer must use only the checked data."""
         self.take(1)
         pack = self.large(2, CHANGING_MIB)
         image = self.make("changing", "vfat", {"vase.fspack": pack})

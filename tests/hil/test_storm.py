@@ -1,5 +1,5 @@
-"""Storms: plugs that come and go faster than a hand can, floods of frames and of noise, descriptors that lie, contacts that
-never rest. The exhibit stays the same process, its picture goes on, and all works afterwards."""
+"""Tests storms: devices that are plugged in and out faster than by hand, floods of frames and noise, false descriptors, contacts that
+bounce without end. The exhibit must stay the same process, its picture must go on, and all must work afterwards."""
 
 import time
 
@@ -10,7 +10,7 @@ ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
 REPLUGS, REPLUG_S = 100, 0.1
 STORM_S = 10.0
-# the tracker's action; the status's sentence meanwhile, if there is a definite one
+# name: (the tracker's fault, the status's sentence during it, if it is always the same)
 STORMS = {
     "replugged_100_times": ("replug 10", None),
     "8_khz": ("rate 8000", None),
@@ -63,7 +63,7 @@ class Storms(HilTest):
         self.assert_well()
 
     def test_button_that_chatters(self):
-        """It is ignored and reported; the shown artifact stays; the button counts again once it is quiet."""
+        """A chattering button is ignored and reported; the shown artifact stays; the button works again once it is quiet."""
 
         def chatter():
             for _ in range(15):

@@ -1,4 +1,5 @@
-"""The table full of artifacts: the prop is slid onto the other artifact's picture, as it lies on the screen, and rests there."""
+"""Tests the artifacts' pictures on the table: the prop is slid onto the other artifact's picture, at its place on the screen, and rests
+there."""
 
 import screen
 from bench import HEIGHT, UPRIGHT, USUAL, WIDTH, eventually
@@ -16,7 +17,7 @@ class Table(HilTest):
         return screen.lit(self.bench.rendered([pose], artifact)[0])
 
     def picture_beside(self, outline):
-        """The middle of the lit area beside the artifact, in metres on the table; None: nothing is lit."""
+        """The middle of the lit area beside the artifact, metres on the table; None: nothing is lit there."""
         shot = self.bench.screendump()
         around = screen.grown(outline, 8, shot.width)
         beside = [row & ~near for row, near in zip(screen.lit(shot), around)]

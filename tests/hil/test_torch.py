@@ -1,5 +1,5 @@
-"""A torch in the hand: the third sensor of the tracker's mock. Its light sweeps over the artifact; the pixels that `frustumscreen render
---torch` lights change, and no others do. Its beam rises, so that it never meets the table, where a lamp's own light is shown."""
+"""Tests a torch in the hand, the third sensor of the tracker's mock. Its light sweeps over the artifact; exactly the pixels that
+`frustumscreen render --torch` lights change. Its beam rises, so that it never meets the table, where a lamp's own light is shown."""
 
 import math
 import pathlib
@@ -20,8 +20,8 @@ TREMBLE_M = 0.02  # a torch that lies is off until it is moved by more than 15 m
 SETTLED_S = 1.0
 SWEEP_S = 60.0
 GONE_S = 30.0
-CHANGED = 6  # codes; the filtered pose shades a surface by some less
-NEAR = 4  # pixels, of an edge of the light: its pose comes to rest near to what was sent
+CHANGED = 6  # codes; the filtered pose changes a surface's shade by less
+NEAR = 4  # pixels, tolerance at an edge of the light: the filtered pose comes to rest near the one that was sent
 MAX_OUTSIDE = 0.01  # share of the changed pixels, and of those that should
 
 
@@ -59,7 +59,7 @@ class Torch(HilTest):
                     for options in ((), ("--torch", "white"))]
 
     def changes_as_rendered(self, prop, torch, dark):
-        """Waits until what differs from the picture without a torch is what differs between the rendered pictures."""
+        """Waits until the pixels that differ from the picture without a torch are those that differ between the rendered pictures."""
         meant = screen.changed(*self.render(prop, torch), CHANGED)
         self.assertGreater(screen.count(meant), 200, "the torch lights nothing: this pose proves nothing")
         may = screen.grown(meant, NEAR, dark.width)

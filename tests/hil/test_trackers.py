@@ -1,4 +1,4 @@
-"""The other trackers that a museum may have, through their own kernel drivers: plugged in in place of the VIPER."""
+"""Tests the other trackers that a museum may have, through their own kernel drivers, in place of the VIPER."""
 
 from bench import EYE_M, UPRIGHT, eventually
 from hil_test import HilTest, long

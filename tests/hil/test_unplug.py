@@ -1,4 +1,4 @@
-"""Tracker, panel and projector are unplugged and plugged in: the picture goes on, the status says so, all works again."""
+"""Tests that tracker, panel and projector can be unplugged and plugged in: the picture goes on, the status says so, all works again."""
 
 
 import screen

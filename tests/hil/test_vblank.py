@@ -1,8 +1,8 @@
-"""A card with real vblanks, whose modeset is slow as some projectors' is: the exhibit's frames keep time with its flips.
+"""Tests that the exhibit's frames follow the flips of a card with real vblanks and a slow modeset, as some projectors have.
 
-The kernel's virtual display (guest_vkms.sh), which no window shows: the status file says how many frames began. Its
-mode is forced to a refresh of which no whole number makes the settings' 30 Hz, so that a frame begins at every second
-flip, 25 times a second, where flips are followed, and 30 times where they are not.
+The card is the kernel's virtual display (guest_vkms.sh), which no window shows; the status file has the number of frames. The settings'
+30 Hz are not a whole fraction of the forced refresh rate. So a frame begins at every second flip, 25 times a second, if flips are followed,
+and 30 times a second if they are not.
 """
 
 

@@ -1,4 +1,4 @@
-"""The watch itself: a picture that freezes is noticed, moving and at rest, beside a busy machine too."""
+"""Tests the watch itself: it notices a picture that freezes, moving and at rest, also on a busy machine."""
 
 from hil_test import HilTest, long
 from test_misbehaviour import write_strokes

@@ -1,6 +1,6 @@
-"""The watchdog service: whatever fails, the exhibit comes back, by the shortest ladder; docs/recovery.md is the table.
+"""Tests the watchdog service: after each failure the exhibit comes back by the fewest steps; docs/recovery.md has the table.
 
-Each test looks at the screen: what is lit, and the code in the picture's corner, which changes while the picture lives.
+Each test checks the screen: the lit area, and the code in the picture's corner, which changes while the picture is live.
 """
 
 import json
@@ -44,7 +44,7 @@ class Watchdog(HilTest):
         return self.said().get("faults", [])
 
     def took(self, step, cause, timeout_s=BACK_S):
-        """Waits until the watchdog has taken this step for this cause, and prints what it took before."""
+        """Waits until the watchdog has taken this step for this cause, and prints the steps before it."""
         def found():
             return [fault for fault in self.faults() if (fault["step"], fault["cause"]) == (step, cause)]
 
@@ -129,7 +129,7 @@ class Watchdog(HilTest):
         self.assertEqual(self.bench.main_process(), self.process, "the exhibit was started again")
 
     def test_driver_that_crashes_at_each_start(self):
-        """Plain drawing shows the museum's own set, and the place of the crash is reported and kept."""
+        """With plain drawing the museum's own set is shown, and the place of the crash is reported and kept."""
         machine = self.bench.machine
         # When the watchdog stops, systemd removes its folder, and with it the mode.
         self.addCleanup(machine.run, f"{END}; rm -f /run/hil/crash-driver; rm -rf {CRASHES}; systemctl restart --no-block {UNIT}")
@@ -192,7 +192,7 @@ class Watchdog(HilTest):
 
     @long
     def test_full_run(self):
-        """No memory is left for the files of /run: the exhibit's status stays young all the same, and no step is taken."""
+        """No memory is left for the files of /run; the exhibit's status still stays fresh, and no step is taken."""
         machine = self.bench.machine
         self.addCleanup(machine.run, "rm -f /run/full")
         machine.run("cat /dev/zero > /run/full")
@@ -215,7 +215,7 @@ class Watchdog(HilTest):
 
     @long
     def test_fork_bomb(self):
-        """TasksMax= holds it; the exhibit goes on, and when it is killed it comes back without the bomb."""
+        """TasksMax= limits a fork bomb; the exhibit goes on, and when it is killed it comes back without the bomb."""
         machine = self.bench.machine
         machine.spawn(f"echo $$ > {GROUP}/cgroup.procs; while :; do sleep 1000 & done")
         # The shell ends when the kernel refuses it a process; the processes that exist stay.
@@ -237,7 +237,7 @@ class Watchdog(HilTest):
 
     @long
     def test_frozen_service_manager(self):
-        """Only the hardware's watchdog is left: it resets the machine."""
+        """Only the hardware's watchdog still works: it resets the machine."""
         self.bench.machine.may_start_anew()
         self.broken()
         self.bench.machine.spawn("echo 1 > /sys/fs/cgroup/init.scope/cgroup.freeze")

@@ -1,5 +1,6 @@
-"""A window on the table: the seventh button pins what is seen through the prop. It is seen on the screen where the same program without a
-screen puts it on this machine, pixel for pixel as `frustumscreen render --pin` draws it; no frame waits for it; with the visit it goes."""
+"""Tests a window on the table: the seventh button pins the view through the prop. On the screen it must be at the place where the same
+program puts it on this machine without a screen, and equal `frustumscreen render --pin` to the pixel. No frame waits for it, and it ends
+with the visit."""
 
 import json
 import pathlib
@@ -27,7 +28,7 @@ MOVED_S = 4.0
 
 
 def run_here(bench, prop):
-    """Pictures before and after the press, of the program without a screen on this machine."""
+    """Pictures before and after the press, by the program on this machine, without a screen."""
     settings = (WINDOWS.replace('kind = "usb"', 'kind = "replay"\nposes = "poses.csv"').replace('kind = "gpio"', 'kind = "scripted"')
                 .replace("/var/lib/frustumscreen/packs", str(bench.packs)))
     settings = "\n".join(f"script = [{{ at_s = {PINNED_S}, button = {WINDOW} }}]" if line.startswith("lines") else line
@@ -46,7 +47,7 @@ def run_here(bench, prop):
 
 
 def rows_in(rows, box, width):
-    """The bits of the columns and rows of a box, (left, top, right, bottom)."""
+    """An outline (screen.py) of a box, (left, top, right, bottom)."""
     left, top, right, bottom = box
     columns = (1 << right - left) - 1 << width - right
     return [row & columns if top <= y < bottom else 0 for y, row in enumerate(rows)]
@@ -101,12 +102,12 @@ class Windows(HilTest):
         meant = screen.lit(self.after_press)
         window_alone = [row & place for row, place in zip(meant, self.window)]
         self.assertLess(screen.share_outside(window_alone, screen.grown(moved, NEAR, width)), MAX_OUTSIDE, "the window has moved")
-        # Nobody is there any more: each rest is longer than the last movement.
+        # The visit ends, because the rests are longer than RESTS_S.
         eventually(lambda: screen.count([row & place for row, place in zip(screen.lit(self.bench.screendump()), window_alone)]) == 0,
                    4 * RESTS_S, "the window stays, though nobody is there")
 
     def shows_what_render_pins(self, picture):
-        """What is lit in the window, within its frame, is what `frustumscreen render --pin` lights there."""
+        """Checks that the lit pixels within the window's frame are those that `frustumscreen render --pin` lights there."""
         left, top, right, bottom = box = screen.box(self.window, picture.width)
         with tempfile.TemporaryDirectory() as folder:
             config = pathlib.Path(folder) / "kiosk.toml"

@@ -1,5 +1,5 @@
-"""A viewer of the emulated second screen that only tells the graphics card how large its window is: for the guest it is
-a projector that comes, goes, or wants another mode.
+"""A viewer of the emulated second screen, which only reports the size of its window to the graphics card. For the guest it is
+a projector that is plugged in, unplugged, or changes its mode.
 
 Source   RFC 6143 (RFB 3.8), and its pseudo-encoding ExtendedDesktopSize (github.com/rfbproto/rfbproto, 7.7.10 and 7.4.3).
 """
@@ -40,7 +40,7 @@ class VncViewer:
         return data
 
     def resize(self, width, height):
-        """Reports the window's new size; 0 x 0: the window can show nothing."""
+        """Reports the window's new size; 0 x 0: a projector that is unplugged."""
         self._socket.sendall(struct.pack(">BxHHBxIHHHHI", SET_DESKTOP_SIZE, width, height, 1, 0, 0, 0, width, height, 0))
 
     def close(self):

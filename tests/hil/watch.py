@@ -1,15 +1,15 @@
-"""Looks at the screen for a while: which pictures came, how long one of them stood, and what some of them lit.
+"""Watches the screen for a while: which pictures came, how long one of them stood, and which pixels some of them lit.
 
-A presented picture carries a code that differs from the one before (app/render/probe.h), so that two screendumps with
-different codes are two pictures, even where nothing moves.
+A presented picture has a code that differs from that of the picture before (app/render/probe.h). So two screendumps with
+different codes are two pictures, even if nothing moves.
 
-Freeze   a picture that stands while the guest rests, or while the guest is given the time of several pictures: two clocks
-         (Machine.given) that stand while a busy host lets the guest wait, so that its load is not the exhibit's freeze.
-         The first does not depend on how slow the guest is. A picture stood at least from the end of the first look
+Freeze   a picture that stands while the guest rests for some time, or while the guest is granted the time of several pictures. Both
+         times are of clocks (Machine.given) that stop while a busy host lets the guest wait, so that the host's load does not count as
+         a freeze. The first does not depend on how slow the guest is. A picture stood at least from the end of the first look
          that saw it to the beginning of the last one, however slow the looks themselves are.
-Pause    a host that stands still as a whole (a virtual machine that its own host takes off the processor) stops none of
-         these clocks. It shows as one long step between two looks. No step counts for more than SURE_S, so that only a
-         freeze that several looks saw counts.
+Pause    if the host stops as a whole (a virtual machine that gets no processor from its own host), these clocks do not stop. Such a
+         pause is one long step between two looks. No step counts for more than SURE_S, so that a freeze counts only if several
+         looks saw it.
 """
 
 import statistics
@@ -21,23 +21,23 @@ from machine import Given
 from screen import CODES
 
 LOOK_S = 0.02  # pause between two screendumps
-KEPT_S = 0.2  # pause between two that are kept to be measured
-SURE_S = 0.1  # a longer step between two polls hides what happened meanwhile
-RESTING_S = 1.0  # where nothing moves, a picture with another code comes after this time
+KEPT_S = 0.2  # pause between two screendumps that are kept for measurements
+SURE_S = 0.1  # the largest step between two looks that counts in full
+RESTING_S = 1.0  # while nothing moves, a picture with another code comes after this time
 FROZEN_S = 0.25
 FROZEN_PACES = 4.0
 
 
 @dataclass
 class Look:
-    time_s: float  # of the monotonic clock, at the look's end
+    time_s: float  # monotonic clock at the end of the look
     begin: Given
     end: Given
-    code: int  # None: none can be read
+    code: int  # None: the picture has no readable code
 
 
 def plus(stood, before, now):
-    """`stood` plus what was given from one look to the next."""
+    """`stood` plus the time granted from one look to the next."""
     return Given(stood.granted_s + min(SURE_S, now.granted_s - before.granted_s),
                  stood.rested_s + min(SURE_S, now.rested_s - before.rested_s))
 
@@ -76,7 +76,7 @@ class Watch:
 
 
 def watch(bench, seconds):
-    """Only looks for `seconds` and does nothing to the exhibit."""
+    """Watches for `seconds`, and does nothing else to the exhibit."""
     looks, pictures, given = [], [], bench.machine.given
     begun = time.monotonic()
     kept = begun - KEPT_S

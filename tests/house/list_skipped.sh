@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Says which tests were skipped, and why: ctest counts a program as passed of which some tests were.
+# Lists the skipped tests and the reasons, because ctest counts a program as passed even if some of its tests were skipped.
 #
-#   tests/house/list_skipped.sh LOG    LOG: what the tests printed, as ctest keeps it in Testing/Temporary/LastTest.log
+#   tests/house/list_skipped.sh LOG    LOG: the tests' output, which ctest keeps in Testing/Temporary/LastTest.log
 set -euo pipefail
 awk '
     wants_reason && NF && !/^\[/ { reason = $0; wants_reason = 0 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Lists the ten slowest compilations, links and tests of a run, and the sums of each kind.
 #
-#   tests/house/list_slowest.sh TIMES    TIMES: what cmake/timed wrote
+#   tests/house/list_slowest.sh TIMES    TIMES: the file that cmake/timed has written
 set -euo pipefail
 [[ -s $1 ]] || exit 0
 printf '== slowest   wall  processor\n'

@@ -3,8 +3,8 @@
 # three techniques, the visitor's view, captions, languages, fades, attract mode and the alignment pattern. Two
 # builds that draw the same pictures leave folders that are equal byte for byte:
 #
-#   tests/house/picture_set.sh BIN FOLDER [BAKER]    BIN: where the programs are; FOLDER: replaced; BAKER: where those are
-#                                                    that bake the packs, if others
+#   tests/house/picture_set.sh BIN FOLDER [BAKER]    BIN: the folder of the programs; FOLDER: is replaced; BAKER: the folder of the
+#                                                    programs that bake the packs, if it is not BIN
 #   diff -r FOLDER OTHER_FOLDER
 set -euo pipefail
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
@@ -36,7 +36,7 @@ for setup in kiosk near; do
     done
 done
 
-# The live exhibit on a clock that steps: presses and fades, the language, rest, attract mode; then the pattern.
+# The live exhibit on a simulated clock: presses and fades, the language, rest, attract mode; then the pattern.
 settings=$folder/live.toml
 cat >"$settings" <<END
 [projector]

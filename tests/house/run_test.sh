@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# Runs a test in a temporary folder of its own, and fails it if something stays there. CTest runs every test through this.
+# Runs a test in a temporary folder of its own, and fails it if it leaves files there. CTest runs every test by this script.
 #
 #   tests/house/run_test.sh NAME COMMAND...
 #
-# $FRUSTUMSCREEN_UNDER has the words of a program that the command runs under, strace for instance.
+# $FRUSTUMSCREEN_UNDER has the words of a program under which the command runs, such as strace.
 set -uo pipefail
 TMPDIR=$(mktemp -d "${TMPDIR:-/tmp}/t.XXXXXX") || exit 1 # a short name: the path of a socket has 107 characters at most
 export TMPDIR
 chmod 1777 "$TMPDIR" # some tests act as another user
-# Memory that is released stays with the process (mallopt(3)): what draws and fits spent up to a fifth of its time on getting the same
-# pages anew from the kernel, zeroed.
+# Freed memory stays with the process (mallopt(3)). Otherwise tests that draw and fit spend up to a fifth of their time on getting the
+# same pages from the kernel again, zeroed.
 export MALLOC_TRIM_THRESHOLD_=1000000000 MALLOC_MMAP_THRESHOLD_=1000000000
-export PATH=/usr/bin:/bin:$PATH # Debian's Python: another one may lack its modules, and start ten times slower
+export PATH=/usr/bin:/bin:$PATH # for Debian's Python; another one may lack its modules, and may start ten times slower
 name=$1
 shift
 read -ra under <<<"${FRUSTUMSCREEN_UNDER-}"

@@ -1,8 +1,8 @@
 """The image in an emulated PC with UEFI: QEMU and OVMF, the disk that ./image_build/build --test made, and a tracker's mock.
 
-Frame    one machine for each start; the disk is a file of its own, over the image that was built, and stays between starts.
-Settings those of a museum with a small projector, on the disk's data partition. The image as shipped, with its own settings and without an
-         agent, is Shipped (shipped.py).
+Frame    one machine for each start; the disk is a copy of the built image, and stays between starts.
+Settings those of a museum with a small projector, on the disk's data partition. The class Shipped (shipped.py) has the shipped image,
+         with its own settings and without an agent.
 Time     as in tests/hil/machine.py.
 Threads  one caller.
 Errors   MachineError.
@@ -31,22 +31,22 @@ LIT_S = 240.0  # from power on until the exhibit is lit; the firmware alone take
 
 
 class Appliance(Machine):
-    """`image`: the disk; `folder`: for the disk's own file, the firmware's variables and logs; `secure`: the firmware starts nothing
-    that is not signed with Debian's test key (package ovmf); `card`: QEMU's name of the graphics card."""
+    """`image`: the disk; `folder`: for the disk's copy, the firmware's variables and logs; `secure`: the firmware starts only programs
+    that are signed with Debian's test key (package ovmf); `card`: QEMU's name of the graphics card."""
 
     def __init__(self, image, folder, sockets, usb, secure=False, card="bochs-display"):
         super().__init__(folder, folder, sockets, folder, WIDTH, HEIGHT, usb)
         self.disk, self._secure, self.read_only = folder / "disk.raw", secure, False
         self._screen = f"{card},id=screen" + (f",edid=on,xres={WIDTH},yres={HEIGHT}" if card == "bochs-display" else "")
         folder.mkdir(parents=True, exist_ok=True)
-        # A copy that takes no space where the file has holes; a test may write into it.
+        # A sparse copy, into which a test may write.
         subprocess.run(["cp", "--sparse=always", "--reflink=auto", image, self.disk], check=True)
         subprocess.run(["truncate", "-s", "2G", self.disk], check=True)
         self.give_settings()
         shutil.copy(FIRMWARE / ("OVMF_VARS_4M.snakeoil.fd" if secure else "OVMF_VARS_4M.fd"), folder / "variables.fd")
 
     def give_settings(self):
-        """A small picture, because the emulated processor is slow; the artifact is the image's own."""
+        """Puts settings on the data partition: a small picture, because the emulated processor is slow, and the image's own artifact."""
         settings = self.logs / "kiosk.toml"
         settings.write_text(re.sub(r"(?m)^packs = .*", 'packs = ["/usr/share/frustumscreen/built_in.fspack"]',
                                    parts.SETTINGS.read_text(encoding="utf-8")), encoding="utf-8")
@@ -72,13 +72,13 @@ class Appliance(Machine):
         return [str(word) for word in command]
 
     def power_on(self):
-        """Without waiting for anything; returns the process."""
+        """Starts the machine without waiting; returns QEMU's process."""
         with open(self.logs / "qemu.log", "w", encoding="utf-8") as log:
             self._process = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         return self._process
 
     def stop(self):
-        """As by the plug."""
+        """Stops the machine as if it were unplugged."""
         super().stop()
         for line in (getattr(self, "_monitor", None), getattr(self, "_agent", None)):
             if line:
@@ -87,11 +87,11 @@ class Appliance(Machine):
     # The disk, while the machine is off.
 
     def partition(self, number):
-        """(offset, size) in bytes."""
+        """(offset, size) of a partition, in bytes."""
         return parts.partition(self.disk, PARTITIONS[number])
 
     def flip(self, offset):
-        """Turns all bits of one byte of the disk."""
+        """Inverts all bits of one byte of the disk."""
         with open(self.disk, "r+b") as disk:
             disk.seek(offset)
             byte = disk.read(1)
@@ -107,12 +107,12 @@ class Appliance(Machine):
     # While it runs.
 
     def let_disk_hang(self, hangs):
-        """Makes the disk hang: at one byte per second, requests wait. `hangs` False: ends that."""
+        """Makes the disk hang by a limit of one byte per second, so that requests wait; `hangs` False removes the limit."""
         limits = {name: 0 for name in ("bps", "bps_rd", "bps_wr", "iops", "iops_rd", "iops_wr")}
         self.monitor("block_set_io_throttle", device="disk", **{**limits, "bps": int(hangs)})
 
     def lit_picture(self):
-        """The screen's picture, if the exhibit drew it (screen.probe) and it lights something; else None."""
+        """The screen's picture, if the exhibit drew it (screen.probe) and a part of it is lit; otherwise None."""
         path = self.sockets / "screen.ppm"
         self.screendump(path)
         picture = screen.read_ppm(path)
@@ -120,13 +120,13 @@ class Appliance(Machine):
         return picture if screen.probe(picture) is not None and 0.005 < share < 0.5 else None
 
     def wait_until_lit(self, timeout_s=LIT_S):
-        """Returns the picture, and keeps it beside the logs."""
+        """Waits for a lit picture; returns it, and keeps it beside the logs."""
         picture = eventually(self.lit_picture, timeout_s, "the screen stays dark")
         screen.write_png(self.logs / "lit.png", picture)
         return picture
 
     def firmware_starts(self):
-        """How often the firmware has started the disk since power on, as it says on the serial line."""
+        """How often the firmware has started from the disk since power on, by its messages on the serial line."""
         return (self.logs / "serial.log").read_bytes().count(b"BdsDxe: starting Boot")
 
     def notes(self):
@@ -135,5 +135,5 @@ class Appliance(Machine):
 
 
 def tracker(sockets, logs):
-    """A VIPER at the machine's USB port, as a program of its own."""
+    """Starts the mock of a VIPER for the machine's USB port, a program of its own."""
     return Mock("mock_tracker", "tracker", sockets, logs)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Updates of the kiosk's system, without a machine: what ./image_build/bundle makes, read by RAUC itself; boot-slots on a folder; and
-trim-boot-folder on a boot partition.
+"""Tests updates of the kiosk's system without a machine: RAUC itself reads the bundles of ./image_build/bundle; boot-slots runs on a
+folder, and trim-boot-folder on a boot partition.
 
 bundle_test.py [unittest's arguments]
 """
@@ -31,7 +31,7 @@ class Folder(unittest.TestCase):
 
 
 class Bundle(Folder):
-    """An image of noise stands in for a real one; nothing looks into it."""
+    """An image of noise replaces a real one; nothing reads its contents."""
 
     def setUp(self):
         super().setUp()
@@ -137,7 +137,7 @@ class BootSlots(Folder):
         self.assertEqual(self.images(), before)
 
     def test_which_starts(self):
-        """The newest with tries left, as systemd-boot's own order has it."""
+        """The primary slot is that of the newest version with tries left, in systemd-boot's own order."""
         for ours, other, primary, state in (
                 ("1.2.0+5", "1.3.0+3", "b", "good"), ("1.2.0+4-1", "1.3.0+0-3", "a", "bad"), ("1.2.0", "1.10.0+1-2", "b", "good"),
                 ("1.10.0+5", "1.9.0", "a", "good"), ("1.2.0+0-5", "1.1.0+5", "b", "good"), ("1.2.0+0-5", "1.3.0+0-3", "b", "bad"),
@@ -173,7 +173,7 @@ class BootSlots(Folder):
             self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi"])
 
     def test_what_a_power_cut_leaves_of_a_rename(self):
-        """An empty new name goes; of two names of one file none does, since that would free the other's blocks."""
+        """An empty new name is removed; of two names of one file none is, because that would free the other's blocks."""
         self.image("frustumscreen_1.2.0+4-1.efi", RUNNING)
         (self.linux / "frustumscreen_1.2.0+5.efi").touch()
         (self.linux / "frustumscreen_1.3.0+3.efi").touch()
@@ -204,7 +204,7 @@ class BootSlots(Folder):
 
 
 class TrimBootFolder(Folder):
-    """mkfs.fat and mtools make the boot partition; the bytes of its folder say what was done."""
+    """mkfs.fat and mtools make the boot partition; the test reads the bytes of its folder."""
 
     def setUp(self):
         super().setUp()
@@ -236,10 +236,10 @@ class TrimBootFolder(Folder):
         return names
 
     def kinds(self):
-        """The first byte of each name of the folder, "." not: a removed one is e5, and 0 is behind the last."""
+        """The first byte of each name of the folder, except "."; e5: a removed name; 0: the end."""
         data = self.disk.read_bytes()
         place = data.index(b".          ")
-        while data[place + 32:place + 34] != b".." or data[place - 512:place - 511] != b".":  # EFI/Linux is behind EFI
+        while data[place + 32:place + 34] != b".." or data[place - 512:place - 511] != b".":  # EFI/Linux follows EFI
             place = data.index(b".          ", place + 1)
         return [data[at] for at in range(place + 64, place + 512, 32)]
 
@@ -265,7 +265,7 @@ class TrimBootFolder(Folder):
         self.put(*names)
         self.remove(*names[2:])
         self.assertEqual((self.trim().returncode, self.kinds()[6:]), (0, [0] * 8))
-        self.put("frustumscreen_1.0.0+3.efi")  # nothing that was there before comes back
+        self.put("frustumscreen_1.0.0+3.efi")  # no removed name comes back
         self.assertEqual(self.images(), [*names[:2], "frustumscreen_1.0.0+3.efi"])
 
     def test_what_is_no_boot_partition(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The headers of compiled_in.list, compared with the headers that the compiler read and the archives that were linked.
+"""Compares the headers of compiled_in.list with the headers that the compiler has read and the archives that were linked.
 
     compiled_in_test.py SOURCE    SOURCE: the repository, with its release build
 """
@@ -13,7 +13,7 @@ import sys
 SOURCE = pathlib.Path(sys.argv[1]).resolve()
 BUILD = SOURCE / "build/release"
 PROGRAMS = ("frustumscreen", "frustumscreen-calibrate", "frustumscreen-import", "frustumscreen-pack", "frustumscreen-safe", "frustumscreen-watchdog")
-INTERFACE = {"linux-libc-dev"}  # the kernel's interface: numbers and structures that are nobody's code
+INTERFACE = {"linux-libc-dev"}  # the kernel's interface: only numbers and structures, no code
 
 
 def lines_of(*command):
@@ -21,7 +21,7 @@ def lines_of(*command):
 
 
 def linked(target, seen):
-    """Objects and outside libraries of a program and of the archives that it links."""
+    """The objects and outside libraries of a program and of the archives that it links."""
     depth = None
     for line in lines_of("ninja", "-t", "query", target):
         if line.startswith("  input:"):
@@ -45,14 +45,15 @@ def packages_of(paths):
 
 
 def sources_of(packages):
-    """package -> source, of those that are installed here."""
+    """package -> source, for the packages that are installed here."""
     asked = subprocess.run(["dpkg-query", "-W", "-f", "${db:Status-Status} ${Package} ${source:Package}\n", *sorted(packages)],
                            capture_output=True, text=True).stdout
     return {line.split()[1]: line.split()[2] for line in asked.splitlines() if line.startswith("installed ")}
 
 
 def shared_libraries():
-    """Libraries that the programs load at their start, which the image therefore has; patterns, since a library may lie in /lib or /usr/lib."""
+    """Patterns of the libraries that the programs load at their start, and that the image therefore has. A library may be in /lib or
+    /usr/lib."""
     listed = lines_of("ldd", *(f"bin/{program}" for program in PROGRAMS))
     return {f"*/{line.split()[0]}" for line in listed if "=> /" in line}
 

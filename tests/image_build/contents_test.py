@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The list of the image's contents, compared with a made-up image, the schema of CycloneDX, unsquashfs and sha256sum.
+"""Tests the list of the image's contents with an artificial image, the schema of CycloneDX, unsquashfs and sha256sum.
 
     contents_test.py SOURCE    SOURCE: the repository
 """
@@ -49,7 +49,7 @@ class Contents(unittest.TestCase):
         cls.folder.cleanup()
 
     def rows(self, words):
-        """(MB unpacked, MB packed, the rest) of the table whose head has these words."""
+        """(MB unpacked, MB packed, the rest) of each row of the table whose head has these words."""
         self.assertEqual((self.why.returncode, self.why.stderr), (0, ""))
         table = self.why.stdout.partition(words)[2].strip("\n").split("\n\n")[0]
         return [(float(line.split()[0]), float(line.split()[1]), line.split(None, 2)[2]) for line in table.splitlines()]
@@ -64,7 +64,7 @@ class Contents(unittest.TestCase):
 
     def test_the_largest_comes_first_with_its_reason(self):
         purposes, packages = self.rows("MB packed, what for"), self.rows("package: reason")
-        self.assertEqual(purposes[0], (0.7, 0.7, "our programs and data"))  # noise does not pack
+        self.assertEqual(purposes[0], (0.7, 0.7, "our programs and data"))  # noise cannot be compressed
         self.assertEqual(purposes[1], (1.2, 0.3, "graphics: LLVM, by which the processor draws, and what it links"))
         self.assertEqual([row[2] for row in packages][:2], ["frustumscreen 1.0-1: the exhibit",
                                                             "libllvm15 1:15.0.6-4+b1: graphics: the processor draws"])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A copy onto a stick that waits, without a machine: the image's own script on made-up folders, and a service manager that knows one stick
-and writes down what it is asked for.
+"""Tests a copy onto a waiting stick without a machine: the image's own script runs on artificial folders, with a stub of the service
+manager that knows one stick and records its requests.
 
 copy_test.py [unittest's arguments]
 """
@@ -12,7 +12,7 @@ from pressed_script import PressedScript
 
 REPORT = "run/frustumscreen-import/report.json"
 STICK = "stick7p1"
-# Active are the units that are named in the file.
+# The units that the file $ACTIVE names are active.
 SYSTEMCTL = """echo "$*" >>"$SAID"
 [ "$1" = is-active ] || exit 0
 for unit in "$@"; do if grep -qx -e "$unit" "$ACTIVE"; then exit 0; fi; done
@@ -32,7 +32,7 @@ class Copy(PressedScript, unittest.TestCase):
         self.write_program("sleep", "")
 
     def copy(self):
-        """The orders to the service manager."""
+        """Runs the script; returns its requests to the service manager."""
         lines = self.run_script(ACTIVE=self.top / "active", COPY_RUN=self.top / "run", COPY_MOUNTS=self.top / "mounts")
         return [line for line in lines if not line.startswith("is-active")]
 

@@ -1,6 +1,6 @@
 """The image in an emulated PC without firmware: QEMU itself loads kernel, initrd and command line of the kernel image on the disk.
 
-The firmware and the boot loader take 15 to 20 s of each start, and what is tested with this has nothing to do with them.
+It is for tests that do not concern the firmware and the boot loader, which take 15 to 20 s of each start.
 
 Frame, time, threads, errors   as in appliance.py.
 Source   sections .linux, .initrd, .cmdline: systemd-stub(7).
@@ -11,7 +11,7 @@ import image as parts  # from tests/hil, by appliance
 
 
 class Direct(Appliance):
-    """`image`: the disk; `kernel_image`: default: the one that lies beside it, where ./image_build/build has left both."""
+    """`image`: the disk; `kernel_image`: default: the one beside it, where ./image_build/build has left both."""
 
     def __init__(self, image, folder, sockets, usb, kernel_image=None):
         super().__init__(image, folder, sockets, usb)
@@ -19,7 +19,7 @@ class Direct(Appliance):
             (kernel_image,) = image.parent.glob("frustumscreen_*.efi")
         parts.kernel_image_parts(kernel_image, folder)
         self.command_line = (folder / "cmdline").read_text(encoding="ascii").strip("\0 \n")
-        self.more_words = ""  # on the kernel's command line, of the next start
+        self.more_words = ""  # added to the kernel's command line of the next start
 
     def is_running(self):
         return getattr(self, "_process", None) is not None and self._process.poll() is None

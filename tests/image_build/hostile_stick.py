@@ -1,9 +1,9 @@
-"""A stick that wants to be more than a stick: one partition for each thing that some system starts, mounts or opens by itself.
+"""Makes a hostile stick, with a partition for each kind of data that some system starts, mounts or opens automatically.
 
 Units    sizes in MiB.
-Errors   subprocess.CalledProcessError of what makes a file system.
-Source   types of partitions: UAPI Group, Discoverable Partitions Specification; signatures: cryptsetup's LUKS1 header, LVM2's label,
-         Linux' md superblock 1.2, btrfs' and XFS' superblocks (what blkid knows them by).
+Errors   subprocess.CalledProcessError of the programs that make file systems.
+Source   types of partitions: UAPI Group, Discoverable Partitions Specification; signatures, by which blkid recognizes a format:
+         cryptsetup's LUKS1 header, LVM2's label, Linux' md superblock 1.2, btrfs' and XFS' superblocks.
 """
 
 import struct
@@ -11,7 +11,7 @@ import subprocess
 
 import sticks  # from tests/hil, by appliance
 
-MARK = "/run/somebody-was-here"  # what each script on the stick would leave behind
+MARK = "/run/somebody-was-here"  # the file that each script on the stick would make
 SCRIPT = f"#!/bin/sh\ntouch {MARK}\n".encode()
 UNIT = f"[Service]\nExecStart=/bin/sh -c 'touch {MARK}'\n[Install]\nWantedBy=multi-user.target\n".encode()
 AUTORUN = {
@@ -28,7 +28,7 @@ RAID, LUKS = "a19d880f-05fc-4d3b-a006-743f0f84911e", "ca7d7ccb-63ed-4c53-861c-17
 
 
 def _signed_as(image, place, signature, size_mib=1):
-    """A disk with nothing but the signature of a format."""
+    """A disk with only the signature of a format."""
     with open(image, "wb") as file:
         file.truncate(size_mib << 20)
         file.seek(place)
@@ -54,7 +54,7 @@ def _swap(image):
 
 
 def make(folder, boot_loader):
-    """The disk's image. `boot_loader`: an EFI program, which the stick has as its own."""
+    """Makes the image of the stick. `boot_loader`: an EFI program, which is copied onto it."""
     folder.mkdir(parents=True, exist_ok=True)
     system = sticks.file_system(folder / "root", "ext4", SYSTEM, 8, "root")
     parts = [  # (type, name, image)

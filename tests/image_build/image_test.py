@@ -15,12 +15,12 @@ LOGS = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"])
 
 
 def long(test):
-    """A test, or a class of them, that needs `./test image --all`."""
+    """Marks a test, or a class of tests, that runs only with `./test image --all`."""
     return unittest.skipUnless(os.environ.get("FRUSTUMSCREEN_IMAGE_ALL"), "long: ./test image --all")(test)
 
 
 class ImageTest(unittest.TestCase):
-    """A PC for each test, with a disk that was never started."""
+    """Each test has a PC with a disk that has never been started."""
 
     def setUp(self):
         name = self.id().rsplit(".", 1)[-1]
@@ -41,11 +41,11 @@ class ImageTest(unittest.TestCase):
         self.say_lit()
 
     def say_lit(self):
-        """For the tables in docs/: the guest's seconds since power on, and how often the machine was started since."""
+        """Prints, for the tables in docs/, the guest's seconds since power on and the number of starts since then."""
         print(f"\n{self.id().rsplit('.', 1)[-1]}: lit {self.pc.granted_s():.0f} s after power on, {self.pc.firmware_starts()} starts; "
               f"{self.pc.notes()}", flush=True)
 
     def switch_off(self):
-        """By the plug, not by a command."""
+        """Switches the PC off as if it were unplugged, without a command."""
         Patience.clock = time.monotonic
         self.pc.stop()

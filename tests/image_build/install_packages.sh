@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the packages into a new, small Debian 12, uses them there, updates, removes and purges them. It fetches Debian's packages.
 #
-#   install_packages.sh [FOLDER]    FOLDER: where the packages are; without it they are packed from build/release
+#   install_packages.sh [FOLDER]    FOLDER: the folder of the packages; without it they are packed from build/release
 #
 # Exit status 77: mmdebstrap is not on this machine.
 set -euo pipefail
@@ -22,7 +22,7 @@ else
 fi
 cp "$here/installed_checks.sh" "$work/"
 
-# The same packages as a later version, as an update brings it
+# The same packages with a later version, for the update
 mkdir "$work/later"
 for package in "$work"/debs/*.deb; do
     dpkg-deb --raw-extract "$package" "$work/tree"

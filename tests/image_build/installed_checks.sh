@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs in a new Debian, as root; install_packages.sh calls it. /packages has debs/ and later/, the same as a later version.
+# Runs in a new Debian, as root; install_packages.sh calls it. /packages has debs/ and later/, the same packages with a later version.
 set -euo pipefail
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 cd /packages

@@ -1,19 +1,19 @@
-"""Detects break-ins: facts from the kernel of the running machine, and a sentence for each that is wrong.
+"""Detects break-ins: reads facts from the kernel of the running machine, and gives a sentence for each wrong one.
 
-Frame    `facts` asks the test's agent; `wrong` compares what is now with what was before, and both with what may be at all.
-         What the agent itself runs does not count.
+Frame    `facts` asks the test's agent; `wrong` compares the present facts with earlier ones and with the allowed ones.
+         The agent's own processes do not count.
 Threads  one caller.
 Errors   MachineError.
 """
 
 import re
 
-# Processes that run all the time, and short ones: the services' scripts, sticks, udev's rules.
+# Processes that run all the time, and those that run for a short time: of the services' scripts, of sticks and of udev's rules.
 STAYS = {"systemd", "systemd-journald", "udevadm", "frustumscreen", "frustumscreen-watchdog", "qemu-ga"}
 COMES = {"frustumscreen-import", "systemd-mount", "systemd-executor", "systemctl", "journalctl", "mount", "ntfs-3g", "kmod", "lsblk",
          "dash", "sleep", "cat", "grep", "cut", "sed", "readlink", "basename", "dirname", "stat", "systemd-repart", "systemd-growfs",
          "rauc", "dbus-daemon"}
-LISTENS = r"/run/(systemd|udev|frustumscreen[a-z-]*)/\S+"  # UNIX sockets; the kernel lets nobody else create files there
+LISTENS = r"/run/(systemd|udev|frustumscreen[a-z-]*)/\S+"  # places of allowed UNIX sockets; no other program can create files there
 KEPT = ("boot", "pid", "restarts", "net", "consoles", "tainted", "lockdown", "sysrq", "keyboards", "swaps", "volumes", "ports")
 _SCRIPT = r"""
 for p in /proc/[0-9]*; do
@@ -42,7 +42,7 @@ sed -n 's/^\([^ ]*\) \([^ ]*\) \([^ ]*\) \([^ ]*\) .*/mounted \2 \4/p' /proc/sel
 
 
 def facts(machine):
-    """kind -> lines. The processes are without the agent's."""
+    """The facts: kind -> lines, without the agent's own processes."""
     found = {"process": []}
     for line in machine.check(_SCRIPT, 120.0).splitlines():
         kind, _, what = line.partition(" ")
@@ -60,7 +60,7 @@ def _without_agent(processes):
 
 
 def wrong(before, now, mounted=r"(?!)"):
-    """Sentences; none: no break-in. `mounted`: which places may have been mounted since, as a pattern."""
+    """A sentence for each sign of a break-in. `mounted`: a pattern of places that may have been mounted since `before`."""
     said = []
     for exe in now["process"]:
         folder, _, name = exe.rpartition("/")

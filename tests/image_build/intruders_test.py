@@ -1,4 +1,4 @@
-"""The checks of test_breakout on made-up facts: silent without a break-in, and a sentence for each."""
+"""Tests the checks of test_breakout on artificial facts: no sentence without a break-in, and a sentence for each kind of break-in."""
 
 import copy
 import unittest
@@ -37,7 +37,7 @@ class Judge(unittest.TestCase):
                 self.assertTrue(any(words in line for line in said), said)
 
     def test_mounts(self):
-        """A place that is expected must still be one where nothing can be run."""
+        """Also at an expected place, a mount must not allow programs to run."""
         for options, strange in (("ro,nosuid,nodev,noexec,nosymfollow", 0), ("rw,nosuid,nodev,noexec", 1), ("ro,nosuid,nodev", 1)):
             now = {**CALM, "mounted": [*CALM["mounted"], f"/run/frustumscreen-stick/stick3 {options}"]}
             self.assertEqual(len(intruders.wrong(CALM, now, mounted="/run/frustumscreen-stick/stick3")), strange, options)

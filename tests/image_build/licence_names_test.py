@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Debian's names of licences, and the expressions of SPDX that they become, held against the page of the format and a parser of SPDX.
+"""Tests the conversion of Debian's licence names to SPDX expressions, with the examples of the format's page and with a parser of SPDX.
 
     licence_names_test.py SOURCE    SOURCE: the repository
 """
@@ -14,7 +14,7 @@ import copyright_file  # noqa: E402
 import spdx_list  # noqa: E402
 
 FORMAT = "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\n"
-# As in the format's page and in packages of Debian 12.
+# Names from the format's page and from packages of Debian 12.
 ROWS = [
     ("GPL-2", "GPL-2.0-only"),
     ("GPL-2+", "GPL-2.0-or-later"),

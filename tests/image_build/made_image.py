@@ -1,4 +1,4 @@
-"""Makes a small image as ./image_build/build leaves one, with made-up packages, by the tools that make the real one.
+"""Makes a small image with artificial packages, in the form of ./image_build/build and by the tools that make the real one.
 
 Source   the root by mksquashfs, the initrd by cpio and zstd, the boot partition by sfdisk, mkfs.vfat and mtools.
 """
@@ -15,7 +15,7 @@ DEP5 = "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.
 
 
 def noise(size, seed):
-    """Data that no program compresses."""
+    """Data that cannot be compressed."""
     return random.Random(seed).randbytes(size)
 
 
@@ -28,7 +28,7 @@ def write(path, data):
     path.write_bytes(data if isinstance(data, bytes) else data.encode("utf-8"))
 
 
-# Path, contents, reason in kept.tsv; None: the build makes it, reasons.list has the reason.
+# Path, contents, reason in kept.tsv. None: the build makes the file, and reasons.list has the reason.
 LLVM = "usr/lib/x86_64-linux-gnu/libLLVM-15.so.1"
 ROOT = [
     ("usr/bin/frustumscreen", ELF + noise(700000, 1), "the exhibit"),
@@ -43,7 +43,7 @@ ROOT = [
 ]
 INITRD = [("init", "#!/bin/sh\n"), ("bin/busybox", ELF + noise(20000, 6)), ("lib/x86_64-linux-gnu/libc.so.6", ELF + noise(5000, 3))]
 SECTIONS = {".linux": noise(40000, 7), ".cmdline": b"quiet", ".osrel": b"VERSION_ID=12\n"}
-# Tree, package, further fields, its files, its copyright file.
+# Tree, package, further fields, files, copyright file.
 PACKAGES = [
     ("ours", "frustumscreen", {}, ["/usr/bin/frustumscreen"], DEP5 + "\nFiles: *\nCopyright: us\nLicense: Apache-2.0\n see /usr/share/common-licenses/Apache-2.0\n"),
     ("debian", "libllvm15", {"Source": "llvm-toolchain-15 (1:15.0.6-4)", "Version": "1:15.0.6-4+b1",
@@ -79,7 +79,7 @@ def make_packages(provenance, compiled_in):
 
 
 def efi_program(sections):
-    """Headers and sections, one behind the other, as objdump reads them."""
+    """Headers and sections, one after another, as objdump reads them."""
     place, table, data = 0x400, b"", b""
     for name, contents in sections.items():
         padded = contents + bytes(-len(contents) % 512)
@@ -116,7 +116,7 @@ def make_disk(work, disk):
 
 
 def make(work, compiled_in, more=()):
-    """The folder of an image that has, besides ROOT, the files of more: (path, contents, reason or None)."""
+    """Makes the folder of an image with the files of ROOT and of `more`: (path, contents, reason or None)."""
     out, root = work / "out", work / "root"
     out.mkdir(parents=True)
     kept = []
@@ -130,7 +130,7 @@ def make(work, compiled_in, more=()):
     run("mksquashfs", root, slot, "-quiet", "-no-progress", "-comp", "zstd", "-b", "256K", "-all-root", "-no-xattrs", "-mkfs-time", TIME_S,
         "-all-time", TIME_S, "-reproducible")
     with open(slot, "ab") as file:
-        file.write(bytes(12345))  # where verity's hashes are
+        file.write(bytes(12345))  # in place of verity's hashes
     write(out / "frustumscreen_1.2.efi", efi_program({**SECTIONS, ".initrd": make_initrd(work)}))
     make_disk(work, out / "frustumscreen.raw")
     make_packages(out / "provenance", compiled_in)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Makes the kiosk's image for tests, out/image/test, and before it what it is made of; kept until that changes.
+# Makes the kiosk's image for tests, out/image/test, from the files below, which it makes first. The image is kept until its inputs change.
 #
 # build/image/packages     our Debian packages
-# build/image/test_keys    update.key and update.crt: the key signs updates for it
+# build/image/test_keys    update.key and update.crt: the key that signs updates for this image
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 ./setup.sh hil kiosk window packages image

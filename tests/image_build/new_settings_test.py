@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A kiosk's handling of settings that the importer has taken, without a machine: its own script, and a service manager that only writes down
-what it is asked for.
+"""Tests how a kiosk handles settings that the importer has taken, without a machine: its own script runs with a stub of the service manager
+that only records requests.
 
 new_settings_test.py [unittest's arguments]
 """
@@ -13,7 +13,7 @@ import tempfile
 import unittest
 
 SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen"
-# `restart` fails as often as the file has lines.
+# `restart` fails as often as the file $FAILS has lines.
 SYSTEMCTL = """#!/bin/sh
 echo "$*" >>"$ASKED"
 [ "$*" = "restart frustumscreen.service" ] && [ -s "$FAILS" ] || exit 0

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The Debian packages, packed from the release build that is there: what dpkg, lintian and the pages say of them.
+"""Tests the Debian packages, packed from the existing release build, with dpkg, lintian and the statements of the pages.
 
     packages_test.py SOURCE    SOURCE: the repository
 """
@@ -81,7 +81,7 @@ class Packages(unittest.TestCase):
                 packages, path = line.split(": ")
                 owners.setdefault(pathlib.Path(path).name, set()).update(one.split(":")[0] for one in packages.split(", "))
         for program, libraries in linked.items():
-            depends = self.depends(program.parts[-4]) # whose tree it is in
+            depends = self.depends(program.parts[-4]) # the package whose tree the program is in
             for library in libraries:
                 self.assertTrue(owners[library] & depends, f"{program.name} links {library} of {owners[library]}")
 
@@ -120,7 +120,7 @@ class Packages(unittest.TestCase):
                 self.assertNotIn(".debug_info", run("objdump", "--section-headers", program))
 
     def test_what_the_units_start_is_there(self):
-        """Ours by our packages, anything else by a package that is depended on or that every Debian has."""
+        """Our files come from our packages, any other file from a dependency or from a package that every Debian has."""
         ours = self.files["frustumscreen"] | self.files["frustumscreen-base"]
         units = self.trees["frustumscreen"] / "usr/lib/systemd/system"
         started = {program for unit in units.glob("*.service")
@@ -194,7 +194,7 @@ class Packages(unittest.TestCase):
         self.assertEqual(self.script("prerm", "upgrade", "0.2"), [])
 
     def test_same_bytes_again(self):
-        """Packed on a computer with another umask and another time zone."""
+        """The packages are the same when packed with another umask and another time zone."""
         again = pack(pathlib.Path(self.folder.name) / "again", 0o077, "Pacific/Auckland")
         for name, deb in self.debs.items():
             self.assertEqual(*(hashlib.sha256(path.read_bytes()).hexdigest() for path in (deb, again[name])), name)

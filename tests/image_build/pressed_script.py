@@ -1,4 +1,4 @@
-"""The base of tests of the image's scripts that a stick's request and a staff's button start together, on made-up folders."""
+"""The base of tests of the image's scripts that need both a stick's request and a button of the staff, on artificial folders."""
 
 import os
 import pathlib
@@ -10,7 +10,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/f
 
 
 class PressedScript:
-    """Comes before unittest.TestCase. `name`: of the script, of what the button leaves, and of what the stick leaves."""
+    """A mix-in, named before unittest.TestCase. `name`: that of the script, and of the files that button and stick leave."""
     name = ""
 
     @property
@@ -36,7 +36,7 @@ class PressedScript:
         (self.top / "bin" / name).chmod(0o755)
 
     def run_script(self, **environment):
-        """The lines that the programs of `bin` write to the file $SAID."""
+        """Runs the script; returns the lines that the programs of `bin` write to the file $SAID."""
         said = self.top / "said"
         said.unlink(missing_ok=True)
         subprocess.run([SCRIPTS / self.name], check=True, timeout=30, stdout=subprocess.DEVNULL,

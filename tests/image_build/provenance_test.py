@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The package data that is kept beside the image: made of a package that dpkg-deb packs, and compared with its list.
+"""Tests the package data that are kept beside the image: made from a package that dpkg-deb packs, and compared with its list.
 
     provenance_test.py SOURCE    SOURCE: the repository
 """

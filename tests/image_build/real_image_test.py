@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The bill of materials of the image that was built, held against the image, taken apart by other programs.
+"""Compares the bill of materials of the built image with the image itself, which other programs unpack.
 
     real_image_test.py SOURCE [IMAGE-FOLDER]    default: out/image of the repository, or out/image/test; without an image there,
                                                 nothing is tested

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The step that makes a folder for a report on a stick, without a machine: its own script, and a file system in memory that is mounted as a
-stick is, in a made-up /run. What the kernel says of the stick's device is written down here.
+"""Tests the step that makes a folder for a report on a stick, without a machine: its own script runs with a file system in memory, which is
+mounted like a stick in an artificial /run. Files of this test replace the kernel's data on the stick's device.
 
 report_folder_test.py [unittest's arguments]
 """
@@ -14,8 +14,8 @@ import unittest
 
 OWN = pathlib.Path(__file__).resolve().parent.parent.parent / "image_build/files/usr/lib/frustumscreen"
 REQUEST = "frustumscreen-report.toml"
-COPY = "frustumscreen-request.toml"  # its signature is not looked at here
-# Another user's name for root, with mounts of its own. $1: the made-up folder; $2: what the stick holds, a shell's line.
+COPY = "frustumscreen-request.toml"  # the script does not check its signature
+# Runs in a user namespace as root, with its own mounts. $1: the artificial folder; $2: a shell command that makes the stick's files.
 ENTER = """set -e
 cd "$1"
 mount -t tmpfs -o size=1m,nosuid,nodev none run/frustumscreen-stick/stick1
@@ -32,7 +32,7 @@ FLAGS = "nosuid,nodev,noexec"
 
 
 def fat32(state=0):
-    """A boot sector as Microsoft's specification has it: no length of the table in 16 bits, the state at 65."""
+    """A FAT32 boot sector by Microsoft's specification: the 16-bit length of the table is 0, and the state is at 65."""
     sector = bytearray(512)
     sector[36:38] = b"\xff\x01"
     sector[65] = state
@@ -73,7 +73,7 @@ class ReportFolder(unittest.TestCase):
         self.write("mounts", f"/dev/sda1 {self.top}/run/frustumscreen-stick/stick1 {kind} ro 0 0\n".encode())
 
     def run_in(self, files, then="", **environment):
-        """The script's status, the lines of what is mounted, and what the commands behind it say."""
+        """The script's status, the lines of mounts, and the output of the commands after it."""
         done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", ENTER + then, "sh", self.top, files, OWN / "report-folder"],
                               capture_output=True, text=True, check=False, timeout=60,
                               env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "REPORT_RUN": str(self.top / "run"),
@@ -85,7 +85,7 @@ class ReportFolder(unittest.TestCase):
         return int(status.split()[1]), [line for line in said.splitlines() if line.startswith(PLACES)], after
 
     def told(self, request=REQUEST):
-        """(refusal, sentence) of what is left for the importer."""
+        """(refusal, sentence) of the report that is left for the importer."""
         outcome = self.top / "run/frustumscreen-import/stick-report-stick1.json"
         if not outcome.exists():
             return None

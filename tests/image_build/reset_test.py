@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Back to the state of delivery, without a machine: the image's own script on made-up folders, and a service manager that only writes down
-what it is asked for.
+"""Tests the return to the state of delivery without a machine: the image's own script runs on artificial folders, with a stub of the
+service manager that only records requests.
 
 reset_test.py [unittest's arguments]
 """
@@ -28,7 +28,7 @@ class Reset(PressedScript, unittest.TestCase):
         self.write_program("systemctl", 'echo "$*" >>"$SAID"')
 
     def reset(self):
-        """The requests to the service manager."""
+        """Runs the script; returns its requests to the service manager."""
         return self.run_script(RESET_RUN=self.top / "run", RESET_TOP=self.top)
 
     def there(self, names):

@@ -7,11 +7,11 @@ usage="usage: ./test image [--all] [NAME...]
        ./test image --cuts [OPTION...]
        ./test image --start-time [OPTION...]
 
-  --all          the long tests too
-  NAME           as unittest names them, such as test_start.Start.test_two_starts; all if left out
-  --cuts         power cuts instead: './test image --cuts --help'
-  --start-time   how long starts take instead: './test image --start-time --help'"
-for option; do # before anything is built
+  --all          runs the long tests too
+  NAME           a test, as unittest names it, such as test_start.Start.test_first_start; without a name, all tests
+  --cuts         tests power cuts instead: './test image --cuts --help'
+  --start-time   measures how long starts take instead: './test image --start-time --help'"
+for option; do # first, so that help needs no build
     if [[ $option == --help || $option == -h ]]; then
         case "$1" in
             --cuts) exec /usr/bin/python3 "$here/../cuts/cuts.py" --help ;;
@@ -35,7 +35,7 @@ fi
 ./tests/image_build/make_image.sh
 FRUSTUMSCREEN_IMAGE_PACKAGES=$(readlink -f build)/image/packages
 keys=build/image/test_keys
-if $cuts || [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # and an image to update to
+if $cuts || [[ ${FRUSTUMSCREEN_IMAGE_ALL-} ]]; then # these tests also need an image to update to
     image_build/build --quick --test --packages "$FRUSTUMSCREEN_IMAGE_PACKAGES" --update-ca $keys/update.crt --version 99.0.0 --out out/image/next
     FRUSTUMSCREEN_IMAGE_NEXT=$(readlink -f out/image/next/test) FRUSTUMSCREEN_IMAGE_KEYS=$(readlink -f $keys)
     export FRUSTUMSCREEN_IMAGE_NEXT FRUSTUMSCREEN_IMAGE_KEYS

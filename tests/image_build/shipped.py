@@ -1,4 +1,4 @@
-"""The image as it is shipped, in an emulated PC with UEFI: nothing is added to it, so it is known by its screen alone.
+"""The shipped image in an emulated PC with UEFI. Nothing is added to it, so a test can observe only its screen.
 
 Frame    the disk that ./image_build/build makes, with its own settings; a screen of any size; no tracker, no buttons, no agent.
 Time     as in tests/hil/machine.py.
@@ -19,14 +19,14 @@ LIVES_S = 240.0  # from power on; 60 s on two idle cores
 class Seen:
     """The screen's pictures since power on."""
 
-    codes: set  # of pictures that the exhibit drew
-    lit: set  # of those that light something: a picture's contents, hashed
+    codes: set  # codes of the exhibit's pictures
+    lit: set  # hashes of the contents of those pictures that light something
     safe: object = None  # the safe picture, if it was seen
-    picture: object = None  # of the exhibit, the latest that lights something
+    picture: object = None  # the exhibit's latest picture that lights something
 
 
 class Shipped(Appliance):
-    """`screen_size`: what the screen prefers (EDID); `card_memory`: QEMU's word for it."""
+    """`screen_size`: the screen's preferred size (EDID); `card_memory`: the card's memory, as QEMU's option."""
 
     def __init__(self, image, folder, sockets, screen_size, card_memory, processor):
         super().__init__(image, folder, sockets, {})
@@ -34,7 +34,7 @@ class Shipped(Appliance):
         self.memory_mib, self.processor = 2048, processor
 
     def give_settings(self):
-        """None but its own."""
+        """Keeps the image's own settings."""
 
     def start(self):
         self.power_on()

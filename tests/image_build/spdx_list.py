@@ -14,12 +14,12 @@ SCHEMAS = {name: json.loads((FOLDER / f"{name}.schema.json").read_text(encoding=
 
 
 def schema_errors(bill):
-    """Why a bill of materials does not follow the schema; empty: it does."""
+    """The reasons why a bill of materials violates the schema; empty: it follows the schema."""
     resolver = jsonschema.RefResolver.from_schema(SCHEMAS["bom-1.4"], store={schema["$id"]: schema for schema in SCHEMAS.values()})
     return [error.message for error in jsonschema.Draft7Validator(SCHEMAS["bom-1.4"], resolver=resolver).iter_errors(bill)]
 
 
 def unknown_of(expression):
-    """The names in an expression that are not on SPDX's list, of licences and exceptions, nor references of ours."""
+    """The names in an expression that are neither on SPDX's lists of licences and exceptions nor our own references."""
     names = Licensing().license_keys(Licensing().parse(expression.replace(" WITH ", " AND ")))
     return [name for name in names if name not in SCHEMAS["spdx"]["enum"] and not name.startswith("LicenseRef-Debian-")]

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
-"""How long a start takes: from the kernel's first instant to the exhibit's first picture, and of the same image without the exhibit to
-multi-user.target; the medians of starts that take turns. `./test image --start-time` calls this.
+"""Measures how long a start takes: from the kernel's first instant to the exhibit's first picture, and, with the same image without the
+exhibit, to multi-user.target. Starts of both kinds alternate; the results are their medians. `./test image --start-time` calls this.
 
-Frame    one disk for all starts; the one before the first is not counted, since it alone grows the data partition and fills the
-         exhibit's cache of shaders. What that took is told beside.
-Time     the guest's CLOCK_MONOTONIC, which begins with its kernel and goes on while a busy host makes the guest wait. So beside each start
-         stands the share of its time in which no processor of the guest waited ("granted"), and the ratio is told twice: of the times as
-         they are, and of each time multiplied by its share. On an idle host both are the same; on a busy one the second is nearer the truth.
+Frame    one disk for all starts. The very first start is not counted, because only that one grows the data partition and fills the
+         exhibit's cache of shaders; its time is printed separately.
+Time     the guest's CLOCK_MONOTONIC, which begins with its kernel and runs on while a busy host makes the guest wait. So each start's row
+         has the share of its time in which no processor of the guest waited ("granted"), and the ratio is printed twice: of the times, and
+         of the times multiplied by this share. On an idle host both are the same; on a busy one the second is nearer the truth.
 Threads  one.
 Errors   exit status 1: the ratio is above the limit (--limit).
-Source   systemd's own stamps: frustumscreen.service is active with its first picture (READY=1, app/show/run_watch.h), which is looked
-         for on the screen too.
+Source   systemd's own time stamps. frustumscreen.service becomes active with its first picture (READY=1, app/show/run_watch.h); the
+         screen is checked too.
 """
 
 import argparse
@@ -38,7 +38,7 @@ def stamp_s(pc, unit, name="ActiveEnterTimestampMonotonic"):
 
 
 def one_start(pc, exhibit, rests_s=0.0):
-    """One start from its kernel's first instant; all in seconds. `rests_s`: the machine stays on for so long afterwards."""
+    """The times of one start from its kernel's first instant, seconds. `rests_s`: the machine stays on for so long afterwards."""
     pc.more_words = "" if exhibit else WITHOUT_EXHIBIT
     begun = time.monotonic()
     pc.start()
@@ -60,7 +60,7 @@ def one_start(pc, exhibit, rests_s=0.0):
 
 
 def medians(starts, granted):
-    """(first picture, multi-user.target without the exhibit), s; `granted`: of the time alone in which the guest did not wait."""
+    """(first picture, multi-user.target without the exhibit), s; `granted`: count only the time in which the guest did not wait."""
     def median(exhibit, key):
         return statistics.median(start[key] * (start["granted_share"] if granted else 1.0) for start in starts if start["exhibit"] == exhibit)
     return median(True, "frustumscreen_s"), median(False, "multi-user_s")
@@ -80,7 +80,7 @@ def table(starts, first):
 def main():
     parser = argparse.ArgumentParser(prog="./test image --start-time", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--starts", type=int, default=5, help="of each kind (5)")
+    parser.add_argument("--starts", type=int, default=5, help="number of starts of each kind (5)")
     parser.add_argument("--limit", type=float, help="exit status 1 above this ratio")
     arguments = parser.parse_args()
     logs = pathlib.Path(os.environ["FRUSTUMSCREEN_IMAGE_LOGS"]) / "start_time"

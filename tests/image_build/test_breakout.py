@@ -1,5 +1,5 @@
-"""Break-out: attacks with a keyboard, a stick, a device that types or a network cable, from power on. Long:
-./test image --all. What `intruders` finds strange is held against real break-ins at the end of each test: it must see them."""
+"""Tests break-outs: attacks with a keyboard, a stick, a device that types or a network cable, from power on. Long:
+./test image --all. At the end of each test the agent makes real break-ins, which `intruders` must detect."""
 
 import base64
 import json
@@ -25,15 +25,15 @@ COMBINATIONS = [
 NETWORK = ("e1000e", "virtio-net-pci")
 SETTINGS = "/etc/frustumscreen/kiosk.toml"
 REPORT = "/run/frustumscreen-import/report.json"
-KEY = base64.b64encode(b"Ed" + bytes(range(40))).decode()  # somebody's whose other half nobody has
-LOOKED_THROUGH_S = 90.0  # a stick of many partitions
+KEY = base64.b64encode(b"Ed" + bytes(range(40))).decode()  # a public key without a private one
+LOOKED_THROUGH_S = 90.0  # time in which a stick of many partitions is searched
 MENU_S = 60.0
-MENU_STAYS_S = 330.0  # the firmware's watchdog would be five minutes
+MENU_STAYS_S = 330.0  # longer than the firmware's watchdog, five minutes
 LOADER_VARIABLES = "ls /sys/firmware/efi/efivars | grep -e ^LoaderEntryDefault -e ^LoaderConfig -e ^LoaderEntryOneShot"
 
 
 class Attacked(Appliance):
-    """A PC with `more` devices, to which something may be done from the moment of power on."""
+    """A PC with `more` devices; `at_power_on` is a function that attacks it from power on."""
 
     more = ()
     at_power_on = None
@@ -52,13 +52,13 @@ class Attacked(Appliance):
         self.rest(pause_s)
 
     def rest(self, granted_s):
-        """Lets it run: a busy host's guest must have read one key before the next comes."""
+        """Lets the guest run for this time, so that it has read one key before the next comes, also on a busy host."""
         end_s = self.granted_s() + granted_s
         while self.granted_s() < end_s:
             time.sleep(0.05)
 
     def said(self):
-        """Output of firmware and boot loader on the serial line, where their console is too."""
+        """The output of firmware and boot loader on the serial line, which is also their console."""
         log = self.logs / "serial.log"
         return log.read_text(errors="replace") if log.exists() else ""
 
@@ -80,7 +80,7 @@ class BreakOut(ImageTest):
         self.assertLessEqual(set(keymap), {"0200", "027f"}, "a key means something to the kernel")  # K_HOLE, K_NOSUCHMAP
 
     def assert_nobody_is_in(self, **options):
-        """At rest again: nothing that came has stayed, and the exhibit is the same, and lit."""
+        """Waits until no sign of a break-in is left, and checks that the machine has not restarted and the exhibit is lit."""
         said = [None]
 
         def rests():
@@ -92,7 +92,7 @@ class BreakOut(ImageTest):
         self.pc.wait_until_lit()
 
     def assert_seen(self, command, words):
-        """A real break-in, by the agent's hand, of which the judge must say this."""
+        """Lets the agent make a real break-in by this command; `intruders` must report it in these words."""
         self.pc.run(command)
         eventually(lambda: any(words in line for line in intruders.wrong(self.before, intruders.facts(self.pc))), 60.0,
                    f"the judge does not see it: {command}")
@@ -100,7 +100,7 @@ class BreakOut(ImageTest):
     # The boot loader.
 
     def call_menu(self, key):
-        """A key that is held from power on."""
+        """Holds a key from power on until the boot loader's menu appears."""
         deadline = self.pc.granted_s() + 4 * MENU_S
         known = len(self.pc.said())
         while "(h)elp" not in self.pc.said()[known:]:
@@ -110,7 +110,7 @@ class BreakOut(ImageTest):
                 self.pc.press("h", pause_s=0.05)
 
     def signed_command_line(self):
-        """As in the kernel image on the disk."""
+        """The command line in the kernel image on the disk."""
         begin, _ = self.pc.partition(ESP)
         image = self.sockets / "kernel.efi"
         listed = subprocess.run(["mdir", "-b", "-i", f"{self.pc.disk}@@{begin}", "::EFI/Linux"], check=True, capture_output=True,
@@ -121,7 +121,7 @@ class BreakOut(ImageTest):
         return words.rstrip(b"\0").decode().strip()
 
     def in_the_menu(self):
-        """Each key that it knows, and a command line typed as if there were an editor."""
+        """Presses each key that the menu knows, and types a command line as if there were an editor."""
         self.call_menu("h")
         known = len(self.pc.said())
         for key in ("e", "e", "up", "down", "home", "end", "pgup", "pgdn", "minus"):
@@ -137,7 +137,8 @@ class BreakOut(ImageTest):
         self.while_it_starts()
 
     def while_it_starts(self):
-        """In kernel and initrd. Firmware and boot loader obey Ctrl+Alt+Del; the kernel is told from them by where it runs."""
+        """Presses keys while kernel and initrd start. It waits until the instruction pointer is the kernel's, because firmware and boot
+        loader obey Ctrl+Alt+Del."""
         eventually(lambda: "RIP=ffffffff" in self.pc.monitor("human-monitor-command", **{"command-line": "info registers"}), 4 * MENU_S,
                    "no kernel starts")
         for _ in range(6):
@@ -145,7 +146,7 @@ class BreakOut(ImageTest):
                 self.pc.press(*keys, pause_s=0.2)
 
     def test_keyboard(self):
-        """At USB and PS/2, from power on."""
+        """A keyboard on USB and PS/2, from power on."""
         self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
         command_line = self.signed_command_line()
         self.pc.at_power_on = self.in_the_menu
@@ -154,7 +155,7 @@ class BreakOut(ImageTest):
         self.assertEqual(self.pc.run(LOADER_VARIABLES).output, "", "what was chosen in the menu outlives this start")
         self.assertNotIn("Keyboard", str(self.before.get("keyboards")))
 
-        with self.subTest("PS/2"):  # QEMU gives keys to the USB keyboard first, as long as it is there
+        with self.subTest("PS/2"):  # QEMU sends keys to the USB keyboard while there is one
             self.pc.monitor("device_del", id="keyboard")
             self.press_everything()
         with self.subTest("USB, not authorised"):
@@ -162,7 +163,7 @@ class BreakOut(ImageTest):
             self.pc.rest(5.0)
             self.press_everything()
         with self.subTest("USB, as if it had said that it is a tracker"):
-            # udev would refuse it again at once
+            # udev is stopped, because it would refuse the keyboard again at once.
             self.pc.check("udevadm control --stop-exec-queue; for d in /sys/bus/usb/devices/*; do grep -qs 0627 $d/idVendor && echo 1 > $d/authorized; done; "
                           "modprobe usbhid; modprobe hid-generic; modprobe evdev")
             eventually(lambda: "Keyboard" in self.pc.check("cat /proc/bus/input/devices"), 30.0, "it is no keyboard")
@@ -173,7 +174,7 @@ class BreakOut(ImageTest):
             self.type_on_serial_line()
         with self.subTest("the judge sees a console that was switched"):
             self.pc.write("/run/map.hex", KEYMAP.hex())
-            self.pc.check("xxd -r -p /run/map.hex | loadkmap; : > /dev/tty2")  # the kernel shows no console that nobody has opened
+            self.pc.check("xxd -r -p /run/map.hex | loadkmap; : > /dev/tty2")  # the kernel switches only to a console that was opened
             self.pc.press("ctrl", "alt", "f2", pause_s=2.0)
             self.assert_seen("true", "the console shows ['tty2']")
 
@@ -203,7 +204,7 @@ class BreakOut(ImageTest):
         self.assert_nobody_is_in()
 
     def test_menu_is_left_alone(self):
-        """Somebody holds a key at power on and goes away: the menu stays, since systemd-boot stops the firmware's watchdog for it.
+        """A person holds a key at power on and goes away. The menu stays, because systemd-boot stops the firmware's watchdog for it.
         Return, or the power switch, ends it."""
         self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
 
@@ -218,8 +219,8 @@ class BreakOut(ImageTest):
         self.assert_nobody_is_in()
 
     def test_firmware_from_the_menu(self):
-        """Q leaves the boot loader for the firmware, whose own menus follow, with what was chosen: here that the menu is always shown.
-        So it stands at the next power on too, until Return; from then on the machine starts as ever."""
+        """Q leaves the boot loader for the firmware and its own menus. The choices made in the menu are kept, here that the menu is always
+        shown. So the menu also appears at the next power on, until Return; after that the machine starts as usual."""
         self.pc.more = ("-device", "usb-kbd,id=keyboard,bus=usb.0,port=9")
 
         def leave():
@@ -247,14 +248,14 @@ class BreakOut(ImageTest):
     # USB.
 
     def test_hostile_stick(self):
-        """None of its programs is run, and only the partition that the importer reads is mounted, and only meanwhile."""
+        """None of its programs is run, and a partition is mounted only while the importer reads it."""
         boot_loader = subprocess.run(["mtype", "-i", f"{self.pc.disk}@@{self.pc.partition(ESP)[0]}", "::EFI/BOOT/BOOTX64.EFI"], check=True,
                                      capture_output=True).stdout
         folder = self.pc.logs / "stick"
         self.addCleanup(shutil.rmtree, folder)
         stick = hostile_stick.make(folder, boot_loader)
         self.start()
-        # As before visitors come: without a key the kiosk would take its kiosk.toml (docs/security.md).
+        # A kiosk that visitors use has a key; without one it would take the stick's kiosk.toml (docs/security.md).
         self.pc.check(f"printf '\\n[[exhibit.keys]]\\nname = \"museum\"\\npublic_key = \"{KEY}\"\\n' >> {SETTINGS}")
         settings = self.pc.read(SETTINGS)
         self.pc.plug("hostile", stick)
@@ -288,7 +289,7 @@ class BreakOut(ImageTest):
         self.assertEqual(self.pc.run(f"ls {hostile_stick.MARK}").status, 1, "something of the stick was run")
 
     def test_devices_that_type_and_networks(self):
-        """A hub with a keyboard, mice, a card reader, a camera, a serial port and a network card; and cables with a peer on them."""
+        """A hub with a keyboard, mice, a card reader, a camera, a serial port and a network card; and network cables with a peer."""
         self.pc.more = [word for number, card in enumerate((*NETWORK, "usb")) for word in (
             "-netdev", f"user,id=net{number}", "-object", f"filter-dump,id=dump{number},netdev=net{number},file={self.pc.logs}/net{number}.pcap",
             *(("-device", f"{card},netdev=net{number},mac=52:54:00:00:00:0{number},romfile=") if card != "usb" else ()))]
@@ -317,13 +318,13 @@ class BreakOut(ImageTest):
             self.assertEqual(sent_by(dump, bytes((0x52, 0x54, 0, 0, 0, number))), [], f"net{number}: a packet left the machine")
 
     def usb(self, authorised):
-        """Names of the devices that may be used (1) or not (0)."""
+        """The names of the devices that are authorised (1) or not (0)."""
         return self.pc.check(f"cd /sys/bus/usb/devices; for d in *-*; do case $d in *:*) ;; *) "
                              f"[ $(cat $d/authorized) != {authorised} ] || echo $d ;; esac; done").split()
 
 
 def sent_by(dump, address):
-    """Packets of a file of libpcap's whose sender is `address`."""
+    """The packets of a libpcap file whose sender is `address`."""
     magic, = struct.unpack_from("<I", dump)
     assert magic == 0xA1B2C3D4, "not libpcap's format"
     place, found = 24, []
@@ -337,11 +338,11 @@ def sent_by(dump, address):
 
 
 def _keymap(keys):
-    """For busybox' loadkmap. `keys`: (map, key) -> what it does."""
+    """A keymap for busybox' loadkmap. `keys`: (map, key) -> the key's function."""
     maps = sorted({0, *(number for number, _ in keys)})
     return b"bkeymap" + bytes(number in maps for number in range(256)) + b"".join(
         struct.pack("<128H", *(keys.get((number, key), 0x0200) for key in range(128))) for number in maps)
 
 
-# Ctrl, Alt, and both with F2: to the second console (linux/keyboard.h: KT_SHIFT, KT_CONS)
+# Ctrl and Alt as modifiers, and with both, F2 switches to the second console (linux/keyboard.h: KT_SHIFT, KT_CONS)
 KEYMAP = _keymap({(number, key): what for number in (0, 4, 8, 12) for key, what in ((29, 0x0702), (56, 0x0703), (60, 0x0501))})

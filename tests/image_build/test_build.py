@@ -1,4 +1,4 @@
-"""./image_build/build itself: its bytes, its signatures, what it refuses."""
+"""Tests ./image_build/build itself: its bytes, its signatures, and the arguments that it refuses."""
 
 import filecmp
 import os
@@ -14,11 +14,11 @@ from image_test import IMAGE, long
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = CHECKOUT / "image_build" / "build"
 UPDATE_CA = CHECKOUT / "build" / "image" / "test_keys" / "update.crt"
-TEST_KEY = pathlib.Path("/usr/share/ovmf/PkKek-1-snakeoil.key")  # whose password is "snakeoil"; never a museum's
+TEST_KEY = pathlib.Path("/usr/share/ovmf/PkKek-1-snakeoil.key")  # its password is "snakeoil"; never for a museum
 
 
 def build(*options):
-    """As make_image.sh, with the same versions of Debian's packages, at the same time: the commit may be another by now."""
+    """Builds like make_image.sh, with the image's versions of Debian's packages and the image's time, because HEAD may have changed."""
     (slot,) = IMAGE.parent.glob("frustumscreen_*.slot")
     (time_s,) = struct.unpack_from("<I", slot.read_bytes()[:12], 8)  # squashfs' superblock: mkfs_time
     return subprocess.run([BUILD, "--quick", "--locked", IMAGE.with_name("packages.txt"), "--packages",
@@ -50,7 +50,7 @@ class Build(unittest.TestCase):
             self.assertTrue(filecmp.cmp(IMAGE.with_name(name), again.with_name(name), shallow=False), name)
 
     def test_what_is_shipped_is_what_is_started(self):
-        """A build without --test, to the byte."""
+        """The disk as_shipped equals a build without --test, byte for byte."""
         done = build("--out", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         as_shipped = IMAGE.parent / "as_shipped" / IMAGE.name
@@ -58,7 +58,8 @@ class Build(unittest.TestCase):
         self.assertTrue(filecmp.cmp(IMAGE.with_name("packages.txt"), self.folder / "packages.txt", shallow=False))
 
     def test_versions_that_debian_does_not_have(self):
-        """Named, each with what Debian has; the order of the list does not matter. Debian may have newer versions of others by now."""
+        """Missing versions are named, each with Debian's version; the order of the list does not matter. Debian may also have newer
+        versions of other packages."""
         lines = IMAGE.with_name("packages.txt").read_text(encoding="utf-8").splitlines()
         listed = [" ".join(line.split()[:2]) for line in reversed(lines) if not line.startswith("zlib1g ")] + ["zlib1g 0.0"]
         (self.folder / "list").write_text("\n".join(listed) + "\n", encoding="utf-8")
@@ -68,7 +69,8 @@ class Build(unittest.TestCase):
         named = re.findall(r"^--locked has: (\S+) (\S+)\nDebian has:  (\S+) (\S+)$", done.stderr, re.MULTILINE)
         self.assertIn(("zlib1g", "0.0", "zlib1g"), [each[:3] for each in named], done.stderr)
         for package, version, of_debian, there in named:
-            self.assertEqual(re.sub(r"[0-9]+", "N", package), re.sub(r"[0-9]+", "N", of_debian), done.stderr)  # a kernel's has its number
+            # Numbers are ignored, because the name of a kernel package contains its version.
+            self.assertEqual(re.sub(r"[0-9]+", "N", package), re.sub(r"[0-9]+", "N", of_debian), done.stderr)
             self.assertIn(f"{package} {version}", listed)
             self.assertNotEqual((package, version), (of_debian, there), done.stderr)
         self.assertIn("--mirror", done.stderr)

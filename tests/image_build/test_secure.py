@@ -1,4 +1,4 @@
-"""Secure Boot: a firmware that starts nothing but what Debian's test key has signed."""
+"""Tests Secure Boot: a firmware that starts only programs signed with Debian's test key."""
 
 from appliance import Appliance, eventually
 from test_build import build, keys_in

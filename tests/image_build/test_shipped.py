@@ -1,4 +1,4 @@
-"""The image as it is shipped, from power on to the living exhibit: no agent, no other settings, no tracker, no buttons."""
+"""Tests the shipped image from power on to the live exhibit: no agent, no other settings, no tracker, no buttons."""
 
 import pathlib
 import shutil
@@ -11,13 +11,13 @@ from machine import PROCESSOR
 from shipped import Patience, Shipped
 
 AS_SHIPPED = IMAGE.parent / "as_shipped" / IMAGE.name
-OWN_SIZE = (1920, 1200)  # of the picture, which the exhibit takes where the screen has such a mode
+OWN_SIZE = (1920, 1200)  # the picture's own size, which the exhibit uses if the screen has such a mode
 
 
 class AsShipped(unittest.TestCase):
     def assert_lives_on(self, width, height, shown=OWN_SIZE, memory="128M", processor=PROCESSOR):
-        """`width`, `height`: what the screen prefers; `memory`: of the card, whose driver offers no mode of which it cannot hold two
-        pictures; `shown`: the mode that the exhibit must take, or those that it may."""
+        """`width`, `height`: the screen's preferred size; `memory`: that of the card, whose driver offers only modes of which two pictures
+        fit; `shown`: the mode that the exhibit must use, or a list of allowed ones."""
         name = self.id().rsplit(".", 1)[-1]
         sockets = pathlib.Path(tempfile.mkdtemp(prefix="image-"))
         self.addCleanup(shutil.rmtree, sockets)
@@ -39,17 +39,19 @@ class AsShipped(unittest.TestCase):
 
     @long
     def test_with_avx2(self):
-        """QEMU 7.2 emulates its gather wrongly where a page comes in (tests/hil/README.md): the exhibit lives, by itself or drawn plainly."""
+        """QEMU 7.2 emulates AVX2's gather wrongly at a page fault (tests/hil/README.md); the exhibit must still come, possibly with plain
+        drawing."""
         self.assert_lives_on(1920, 1200, processor="max")
 
     @long
     def test_scaled_to_a_smaller_screen(self):
-        """Two pictures of 1280 x 800 fit beside the console's or not, as the card's memory is divided; else a smaller mode is taken."""
+        """It depends on the division of the card's memory whether two pictures of 1280 x 800 fit beside the console's; if not, the exhibit
+        uses a smaller mode."""
         self.assert_lives_on(1280, 800, shown=[(1280, 800), (1280, 768)], memory="8M")
 
     @long
     def test_scaled_to_another_shape(self):
-        """As above."""
+        """As in the test above, two pictures may not fit."""
         self.assert_lives_on(1920, 1080, shown=[(1920, 1080), (1600, 1200)], memory="16M")
 
     @long

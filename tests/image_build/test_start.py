@@ -1,4 +1,4 @@
-"""The image from power on: its first start, the next one, and disks that are damaged in between."""
+"""Tests starts of the image from power on: the first one, the next one, and starts with a damaged disk."""
 
 import subprocess
 
@@ -6,15 +6,16 @@ from appliance import DATA, SLOT_A, SLOT_B, Appliance, eventually, screen
 from image_test import IMAGE, ImageTest, long
 import memory
 
-HANGS_S = 300.0  # that a disk answers nothing
+HANGS_S = 300.0  # for which the disk does not answer
 
 
 class Start(ImageTest):
     def test_first_start(self):
-        """Unattended to a lit exhibit, though a byte of the root has flipped; the data partition grows; the kiosk gets its identity."""
+        """The first start leads, unattended, to a lit exhibit although a byte of the root is flipped; the data partition grows; the kiosk
+        gets its identity."""
         pc = self.pc
         small = pc.partition(DATA)[1]
-        pc.flip(pc.partition(SLOT_A)[0] + 96)  # of the root's first block: its file system's own first bytes
+        pc.flip(pc.partition(SLOT_A)[0] + 96)  # in the root's first block, which has the file system's superblock
         self.start()
         self.assertIn("FEC", pc.check("dmesg"), "nothing says that the byte was mended: was it read?")
         self.assertEqual(pc.notes(), "")
@@ -31,7 +32,7 @@ class Start(ImageTest):
 
     @long
     def test_second_start(self):
-        """Kept data is there; a good start no longer counts."""
+        """Kept data are there, and the good start has reset the tries."""
         pc = self.pc
         self.start()
         machine_id = self.machine_id()
@@ -48,7 +49,7 @@ class Start(ImageTest):
 
     @long
     def test_restart_that_hangs(self):
-        """The kernel stops where it should start the machine again: the hardware's watchdog goes on, and does it."""
+        """The kernel stops instead of restarting the machine; the hardware's watchdog still runs, and restarts it."""
         self.start()
         self.pc.may_start_anew()
         self.pc.spawn("busybox halt -f")
@@ -58,7 +59,7 @@ class Start(ImageTest):
 
     @long
     def test_nothing_of_the_system_lies_on_the_table(self):
-        """From the order to restart until the reset, each picture is the exhibit's, or dark."""
+        """From the command to restart until the reset, each picture is the exhibit's or dark."""
         self.start()
         self.pc.may_start_anew()
         self.pc.spawn("systemctl reboot --force")
@@ -89,7 +90,7 @@ class Start(ImageTest):
             self.assertNotEqual(one, other, command)
 
     def assert_nothing_is_read_ahead_in_vain(self):
-        """Each library that the initrd reads ahead is one that the exhibit has in its memory. A driver has many names, and is left out."""
+        """Checks that the exhibit has mapped each library that the initrd reads ahead, except drivers, which have many names."""
         mapped = {line.rsplit("/", 1)[-1] for line in
                   self.pc.check("cat /proc/$(systemctl show -P MainPID frustumscreen.service)/maps").splitlines() if "/" in line}
         ahead = [line.rsplit("/", 1)[-1] for line in self.pc.check("cat /usr/share/frustumscreen/read_ahead").splitlines()
@@ -103,19 +104,19 @@ class Start(ImageTest):
         return found
 
     def assert_keyboard_is_not_used(self):
-        """A tracker is, and a keyboard gets no driver."""
+        """Checks that a tracker is used and a keyboard gets no driver."""
         used = "cd /sys/bus/usb/devices; for d in *-*; do [ ! -e $d/idVendor ] || echo $(cat $d/idVendor) $(cat $d/authorized); done"
         self.assertIn("0f44 1", self.pc.check(used))
         self.pc.monitor("device_add", driver="usb-kbd", id="typing", bus="usb.0")
         eventually(lambda: "0627 0" in self.pc.check(used), 30.0, lambda: f"a keyboard may be used: {self.pc.check(used)}")
-        for keys in (("ctrl", "alt", "f2"), ("alt", "right"), ("ctrl", "alt", "delete")):  # at PS/2, which an emulated PC has too
+        for keys in (("ctrl", "alt", "f2"), ("alt", "right"), ("ctrl", "alt", "delete")):  # by PS/2, which an emulated PC also has
             self.pc.monitor("send-key", keys=[{"type": "qcode", "data": key} for key in keys])
         self.pc.check("sleep 2")
         self.assertNotIn("eyboard", self.pc.check("cat /proc/bus/input/devices"))
         self.assertEqual(self.pc.check("cat /sys/class/tty/tty0/active").strip(), "tty1")
 
     def assert_lit_on_memory(self):
-        """Lit, and it says that nothing is kept."""
+        """Checks that the exhibit is lit and that a note says that no data are kept."""
         self.start()
         self.assertRegex(self.pc.notes(), "^data: .*until the machine is switched off")
         self.machine_id()
@@ -123,13 +124,13 @@ class Start(ImageTest):
 
     @long
     def test_data_partition_overwritten(self):
-        """All of it: nothing is left to mend."""
+        """The whole partition is overwritten, so it cannot be repaired."""
         self.pc.fill(DATA, b"\xa5", self.pc.partition(DATA)[1])
         self.assert_lit_on_memory()
 
     @long
     def test_data_partition_overwritten_at_its_beginning(self):
-        """The copies of the superblock are behind it: a file system again, without what was in it."""
+        """The copies of the superblock are after the overwritten part, so the repair gives a file system, but an empty one."""
         self.pc.fill(DATA, b"\xa5")
         self.start()
         self.assertRegex(self.pc.notes(), "^data: the data partition was damaged and is mended")
@@ -149,7 +150,7 @@ class Start(ImageTest):
 
     @long
     def test_data_partition_damaged(self):
-        """A file system that is damaged is mended, and what it held is there."""
+        """A damaged file system is repaired, and its data are there."""
         self.start()
         self.pc.check("echo kept > /var/lib/frustumscreen/kept; sync")
         self.switch_off()
@@ -172,7 +173,7 @@ class Start(ImageTest):
 
     @long
     def test_disk_that_hangs(self):
-        """It answers nothing any more, as a worn one does, until the machine is started again: at most once, and lit at the end."""
+        """The disk stops answering, as a worn one does, until the machine restarts. It restarts at most once, and is lit at the end."""
         self.start()
         self.pc.may_start_anew()
         self.pc.check("sync")
@@ -197,7 +198,7 @@ class Start(ImageTest):
 
     @long
     def test_root_in_the_other_slot(self):
-        """Slot A has nothing of it; the same kernel image finds its root in B."""
+        """Slot A is empty; the same kernel image finds its root in slot B."""
         offset, size = self.pc.partition(SLOT_A)
         with open(self.pc.disk, "r+b") as disk:
             disk.seek(offset)
@@ -211,7 +212,7 @@ class Start(ImageTest):
 
     @long
     def test_card_without_driver(self):
-        """The console says so, and that is all that shows there."""
+        """The console shows a message about this, and nothing else."""
         self.pc = Appliance(IMAGE, self.pc.logs, self.sockets, {"tracker": self.tracker.usb}, card="ramfb")
         self.pc.start()
         self.addCleanup(self.pc.stop)

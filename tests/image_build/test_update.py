@@ -1,4 +1,4 @@
-"""Updates of the system from a stick: one that is good, those that are refused, those that fall back. Long: ./test image --all."""
+"""Tests updates of the system from a stick: a good one, refused ones, and those that fall back. Long: ./test image --all."""
 
 import json
 import os
@@ -13,11 +13,11 @@ from image_test import ImageTest, long
 from updates import AFTER_NEXT, NEXT, THIS, Updates, no_exhibit, no_init, no_root
 import sticks  # from tests/hil, by appliance
 
-NEXT_IMAGE = os.environ.get("FRUSTUMSCREEN_IMAGE_NEXT", "")  # the folder of an image of version updates.NEXT
+NEXT_IMAGE = os.environ.get("FRUSTUMSCREEN_IMAGE_NEXT", "")  # the folder of an image with the version updates.NEXT
 KEYS = os.environ.get("FRUSTUMSCREEN_IMAGE_KEYS", "")  # update.key, whose certificate the image has
 REPORT = "/run/frustumscreen-import/report.json"
 BOOT = "mount -o ro $(readlink -f /run/frustumscreen-boot/boot) /efi && ls /efi/EFI/Linux; umount /efi"
-# Sectors; the kernel counts them for each partition (Documentation/admin-guide/iostats.rst).
+# Prints the sectors written to slot B, which the kernel counts for each partition (Documentation/admin-guide/iostats.rst).
 WRITTEN_TO_B = "awk '{ print $7 }' $(dirname $(grep -lx PARTNAME=frustumscreen-b /sys/class/block/*/uevent))/stat"
 CONFIG = "frustumscreen config --config /etc/frustumscreen/kiosk.toml --json"
 CALIBRATION = "/var/lib/frustumscreen/calibration/calibration-0001.toml"
@@ -43,7 +43,7 @@ class Update(ImageTest):
         self.addCleanup(setattr, Patience, "clock", time.monotonic)
 
     def was_good(self):
-        """The disk as after a good start."""
+        """Puts the disk into the state after a good start."""
         begin, _ = self.pc.partition(ESP)
         subprocess.run(["mren", "-i", f"{self.pc.disk}@@{begin}", f"::EFI/Linux/frustumscreen_{THIS}+3.efi",
                         f"::EFI/Linux/frustumscreen_{THIS}+5.efi"], check=True)
@@ -79,7 +79,7 @@ class Update(ImageTest):
         return report["packs"]
 
     def refusal(self, name, bundle, file="update.raucb", **options):
-        """(refusal, sentence) of the one bundle on a stick; nothing changes on the disk."""
+        """(refusal, sentence) for the only bundle on a stick; checks that nothing changes on the disk."""
         before = self.images()
         self.stick(name, {file: bundle}, **options)
         pack, = self.told()
@@ -104,7 +104,7 @@ class Update(ImageTest):
         self.pc.wait_for_start()
 
     def calibrate(self):
-        """Keeps a calibration that says the same as the settings. It is written by hand here, not by our program."""
+        """Writes a kept calibration that equals the settings, without our program."""
         settings = json.loads(self.pc.check(CONFIG))
         self.assertNotIn("used", settings["calibration"])
         text = 'version = 1\nmade = "2026-11-25 10:12 UTC"\nmethod = "touch"\nplaces = 9\n'
@@ -114,12 +114,13 @@ class Update(ImageTest):
         self.pc.write(CALIBRATION, text + "[residual]\nmean_mm = 0.3\nworst_mm = 0.9\nmean_px = 0.5\n")
 
     def calibration(self):
-        """Which one the settings are read with."""
+        """The calibration that the settings use: (file, time, places)."""
         used = json.loads(self.pc.check(CONFIG))["calibration"].get("used")
         return used and (used["file"], used["made"], used["places"])
 
     def test_good(self):
-        """Installed in the other slot, told, started, marked as good; the same stick again changes nothing. The calibration stays."""
+        """A good update is installed in the other slot, reported, started and marked as good; the same stick again changes nothing; the
+        calibration stays."""
         self.start()
         self.wait_until_good()
         self.calibrate()
@@ -142,10 +143,10 @@ class Update(ImageTest):
         self.assertEqual(self.pc.check("systemctl --failed --no-legend").strip(), "")
 
     def test_refused(self):
-        """One plain sentence each, and the version that runs goes on."""
+        """Each bad bundle is refused with one plain sentence, and the running version goes on."""
         make = self.updates.make
         self.start()
-        self.wait_until_good()  # which renames its kernel image, once
+        self.wait_until_good()  # this renames the kernel image once
         for name, bundle, refusal, words in (
                 ("wrong-key", lambda: make(key="other"), "wrong_key", "not signed with the key"),
                 ("cut-off", self.updates.truncated, "not_a_pack", "cut off or damaged"),
@@ -161,7 +162,7 @@ class Update(ImageTest):
         self.assertFalse(self.pc.resets_within(20.0), "the machine starts again, with nothing new")
 
     def falls_back(self, change, between):
-        """An update that is installed and started, fails three times, and is left; the stick stays in all the time."""
+        """An update is installed and started, fails three times, and the machine falls back; the stick stays in all the time."""
         self.was_good()
         self.start()
         self.stick("bad", {"update.raucb": self.updates.make(AFTER_NEXT, change=change)})
@@ -195,7 +196,7 @@ class Update(ImageTest):
         self.falls_back(no_root, lambda: None)
 
     def test_exhibit_does_not_start(self):
-        def hurry():  # the timer gives it five minutes
+        def hurry():  # without waiting for the timer of five minutes
             self.pc.wait_for_start()
             self.pc.check("systemctl start --no-block frustumscreen-next-try.service")
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A kiosk's reports on updates on a stick, without a machine: its own script and RAUC in a made-up root, where nothing can be mounted
-or installed.
+"""Tests a kiosk's reports on updates on a stick, without a machine: its own script and RAUC run in an artificial root, in which nothing can
+be mounted or installed.
 
 update_test.py [unittest's arguments]
 """
@@ -15,7 +15,7 @@ import unittest
 TOP = pathlib.Path(__file__).resolve().parent.parent.parent
 OWN = TOP / "image_build/files/usr/lib/frustumscreen"
 RUNNING = "aa" * 32
-# Another user's name for root, and a root of its own: /usr, /proc and /dev are the computer's.
+# Runs in a user namespace as root, with a root folder of its own; /usr, /proc and /dev are the computer's.
 ENTER = """set -e
 cd "$1"
 for folder in usr proc dev; do mount --rbind /$folder $folder; done
@@ -66,7 +66,7 @@ class Update(unittest.TestCase):
         self.write(f"efi/EFI/Linux/frustumscreen_{name}.efi", f"frustumscreen.root_hash={root_hash}")
 
     def put_in(self, **files):
-        """(outcome, refusal, sentence) by the bundle's name."""
+        """Puts in a stick with these bundles; returns name -> (outcome, refusal, sentence)."""
         for name, content in files.items():
             self.write(f"run/frustumscreen-stick/stick1/{name}.raucb", content)
         done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", ENTER, "sh", self.root], capture_output=True, text=True,

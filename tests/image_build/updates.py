@@ -1,8 +1,8 @@
-"""Bundles for tests: good ones, and each kind that must be refused or fall back.
+"""Makes bundles for tests: good ones, and each kind that must be refused or fall back.
 
-Frame    `next_image`: the folder of an image of version NEXT, of which all bundles are made.
+Frame    `next_image`: the folder of an image with version NEXT, from which all bundles are made.
 Threads  one caller.
-Errors   subprocess.CalledProcessError of what makes a bundle.
+Errors   subprocess.CalledProcessError of the programs that make a bundle.
 """
 
 import os
@@ -13,14 +13,14 @@ import subprocess
 
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUNDLE = CHECKOUT / "image_build/bundle"
-# The version of the image under test, and later ones than any release.
+# The version of the image under test, and versions later than any release.
 THIS = re.search(r"^project\(FrustumScreen VERSION ([0-9.]+) ", (CHECKOUT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE).group(1)
 NEXT = "99.0.0"
 AFTER_NEXT = "99.1.0"
 
 
 def make_key(folder, name):
-    """NAME.key and NAME.crt, which sign for twenty years."""
+    """NAME.key and NAME.crt, which are valid for twenty years."""
     folder.mkdir(parents=True, exist_ok=True)
     key, certificate = folder / f"{name}.key", folder / f"{name}.crt"
     if not certificate.exists():
@@ -30,7 +30,7 @@ def make_key(folder, name):
 
 
 def _in_place(kernel_image, pattern, words):
-    """Puts other words on the command line of a kernel image, of the same length."""
+    """Replaces words on the command line of a kernel image, which keeps its length."""
     data = kernel_image.read_bytes()
     found = re.search(pattern, data)
     assert found and len(words) <= len(found.group(0)), pattern
@@ -38,7 +38,7 @@ def _in_place(kernel_image, pattern, words):
 
 
 def no_root(kernel_image):
-    """Its root is on no disk: the initrd gives up and starts the machine again."""
+    """The version's root is on no disk: the initrd gives up and restarts the machine."""
     _in_place(kernel_image, rb"frustumscreen\.root_hash=[0-9a-f]{64}", b"frustumscreen.root_hash=" + b"5" * 64)
 
 
@@ -48,7 +48,7 @@ def no_init(kernel_image):
 
 
 def no_exhibit(kernel_image):
-    """The system starts, and the exhibit never does."""
+    """The system starts, but the exhibit never does."""
     _in_place(kernel_image, rb"systemd\.import_credentials=0 systemd\.show_status=0", b"systemd.mask=frustumscreen.service")
 
 
@@ -58,7 +58,7 @@ class Updates:
         folder.mkdir(parents=True, exist_ok=True)
 
     def make(self, version=NEXT, key="update", change=None):
-        """A signed bundle that calls itself `version`. `change`: what is done to its kernel image before."""
+        """Makes a signed bundle with this version. `change`: a function that changes its kernel image before."""
         work = self._folder / f"of-{version}"
         work.mkdir()
         os.link(self._image / f"frustumscreen_{NEXT}.slot", work / f"frustumscreen_{version}.slot")
@@ -78,7 +78,7 @@ class Updates:
         return out
 
     def altered(self):
-        """One bit in the middle of what is signed, which nothing reads before it is installed."""
+        """A bundle with one wrong bit in the middle of the signed data, which is read only at the installation."""
         out = self.make()
         with open(out, "r+b") as file:
             file.seek(out.stat().st_size // 2)

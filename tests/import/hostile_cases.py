@@ -1,4 +1,4 @@
-"""Sticks that mean harm: each function fills a folder, with packs that `signer` signed where a signature is to be right."""
+"""Hostile sticks: each function fills a folder. `signer` signs the packs that have a valid signature."""
 
 import copy
 import hashlib
@@ -19,7 +19,7 @@ def signed(signer, text, files):
 
 
 def with_part(signer, name, data, method=None):
-    """A signed pack in which one part is this."""
+    """A signed pack in which the part `name` is `data`."""
     files = {**parts(), name: data}
     text = described(manifest(), files)
     entries = pack_entries(text, files, signer.sign(text))
@@ -30,14 +30,14 @@ def with_part(signer, name, data, method=None):
 
 
 def unlike(signer, change):
-    """A signed pack whose manifest was changed as a value."""
+    """A signed pack whose manifest `change` has altered before it was written."""
     description = manifest()
     change(description)
     return pack(signer, description=description)
 
 
 def raw(signer, entries_change=None, **options):
-    """A signed pack whose ZIP is wrong."""
+    """A signed pack whose ZIP container is wrong."""
     files = parts()
     text = described(manifest(), files)
     entries = pack_entries(text, files, signer.sign(text))
@@ -92,7 +92,7 @@ def many_parts(folder, signer):
 
 
 def zeros(mib):
-    """So many MiB of zeros, deflated: made of blocks that end at a byte."""
+    """`mib` MiB of zeros, deflated. The blocks end at a byte boundary, so one block is repeated."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
     block = packer.compress(bytes(1 << 20)) + packer.flush(zlib.Z_FULL_FLUSH)
     return block * mib + b"\x03\x00"
@@ -104,7 +104,7 @@ def bombs(folder, signer):
         (folder / f"manifest_{name}.fspack").write_bytes(zip_file([Entry(b"manifest.json", b"", packed=packed, size=size)]))
     (folder / "signature.fspack").write_bytes(zip_file(
         [Entry(b"manifest.json", described(manifest(), parts())), Entry(b"signature", b"", packed=packed, size=60000)]))
-    # Signed: who has the key, or has found a way round it, still gets no memory.
+    # Signed: a person who has the key, or has bypassed it, still cannot make the importer use more memory.
     text = described(manifest(), {**parts(), "textures/0.png": b""})
     lying = pack_entries(text, {"levels/0.bin": triangle()}, signer.sign(text))
     lying.insert(1, Entry(b"textures/0.png", b"", DEFLATED, packed=packed, size=1000))
@@ -112,7 +112,7 @@ def bombs(folder, signer):
 
 
 def large_part(folder, signer):
-    """512 MiB of zeros with the right hash, as large as a part may be. It is the museum's own, so it may take its time."""
+    """512 MiB of zeros with the right hash, as large as a part may be. It is a valid pack, so it may take longer."""
     block, total, check = bytes(1 << 20), hashlib.sha256(), 0
     for _ in range(512):
         total.update(block)
@@ -126,7 +126,7 @@ def large_part(folder, signer):
 
 
 def places_of_numbers(value, place=()):
-    """Where in the manifest numbers stand."""
+    """The places of all numbers in the manifest."""
     if isinstance(value, bool):
         return
     if isinstance(value, (int, float)):
@@ -137,7 +137,7 @@ def places_of_numbers(value, place=()):
 
 
 def no_numbers(folder, signer):
-    """Every number of the manifest, replaced by something that is none."""
+    """Manifests in each of which one number is replaced by something that is not a number."""
     files = parts()
     whole = json.loads(described(manifest(), files))
     texts = []
@@ -154,7 +154,7 @@ def no_numbers(folder, signer):
 
 
 def manifests(folder, signer):
-    """Manifests that are too much, or do not mean what they say."""
+    """Manifests that are too large, broken, or contradict their parts."""
     texts = {
         "deep": described(manifest(), parts())[:-1] + b', "x": ' + b"[" * 500000 + b"]" * 500000 + b"}",
         "names": b"{" + b",".join(b'"%d":0' % number for number in range(1 << 20)) + b"}",
@@ -176,7 +176,7 @@ def manifests(folder, signer):
 
 
 def broken_parts(folder, signer):
-    """Signed packs whose parts do not hold what they should."""
+    """Signed packs with parts of wrong contents."""
     nan, infinity = float("nan"), float("inf")
     usual = (0, 3, 0.0, 0.0, 0.5, 1.0, 0.0, 0.0, -0.5, 0.0, 0.0, 1.0, 2.0)
     levels = {f"cluster_{place}": triangle(clusters=((*usual[:place], nan if place % 2 else infinity, *usual[place + 1:]),))
@@ -203,7 +203,7 @@ def broken_parts(folder, signer):
 
 
 def altered_copies(folder, signer):
-    """One signed pack of 4 MiB, a thousand times, in which a byte is another: manifest and signature are right."""
+    """A signed pack of 4 MiB, a thousand times, in which one byte was changed after signing: manifest and signature are valid."""
     data = os.urandom(4 << 20)
     description = manifest()
     description["sections"]["padding"] = {"parts": ["padding.bin"], "data": {}}
@@ -229,7 +229,7 @@ def signatures(folder, signer):
 
 
 def no_files(folder, signer):
-    """Entries that are not files, or lie elsewhere."""
+    """Entries of the stick that are not regular files, or links to other places."""
     elsewhere = folder.parent / "elsewhere.fspack"
     elsewhere.write_bytes(pack(signer, 50))
     (folder / "link.fspack").symlink_to(elsewhere)
@@ -284,7 +284,7 @@ def two_terabytes(folder, _):
 
 
 def sparse_with_end(folder, _):
-    """A ZIP's end, 2 GiB - 22 bytes of nothing before it, and a directory that is said to fill it."""
+    """A sparse file of 2 GiB - 1 bytes. Only its last 22 hold data: a ZIP's end, which says that the directory fills all bytes before."""
     size = (2 << 30) - 1
     with open(folder / "sparse.fspack", "wb") as file:
         file.truncate(size)
@@ -293,7 +293,7 @@ def sparse_with_end(folder, _):
 
 
 def set_files(folder, signer):
-    """An exhibit.toml that is signed, and far too much."""
+    """A signed exhibit.toml that is far too large."""
     (folder / "exhibit.toml").write_bytes(b"order = [" + b'"x",' * 3_000_000 + b"]")
     (folder / "exhibit.toml.minisig").write_bytes(signer.sign((folder / "exhibit.toml").read_bytes()))
 
@@ -305,4 +305,4 @@ def deep_set_file(folder, signer):
 
 CASES = (zip_directories, many_parts, bombs, large_part, no_numbers, manifests, broken_parts, altered_copies, signatures, no_files, names, many_files,
          many_folders, deep_folders, two_terabytes, sparse_with_end, set_files, deep_set_file)
-WHOLE = (large_part,)  # signed, and as its manifest says: its time goes by its size
+WHOLE = (large_part,)  # valid packs; their import may take a time in proportion to their size

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Gives hostile sticks to frustumscreen-import, as folders: each is refused in lines that a person can read, in little memory and
-time, the set that was installed stays, and the next good stick is taken.
+"""Gives hostile sticks to frustumscreen-import, as folders. It must refuse each in lines that a person can read, with little memory and
+time; the installed set must stay, and the next good stick must be taken.
 
-    hostile_sticks.py BIN [--table FILE]    BIN: where the programs are; FILE: what was seen, as a table
+    hostile_sticks.py BIN [--table FILE]    BIN: the folder of the programs; FILE: for the results, as a table
 
 Exit status 77: a program that this needs is not on this machine.
 """
@@ -23,7 +23,7 @@ import plain_pack
 from hostile_cases import CASES, WHOLE
 
 MOST_MIB = 64.0
-MOST_WORK_S = 2.0  # where the yardstick takes YARDSTICK_S, as it did where docs/sticks.md was measured
+MOST_WORK_S = 2.0  # on a machine where the fixed work of slowness() takes YARDSTICK_S, as on the machine of docs/sticks.md
 YARDSTICK_S = 0.25
 MOST_CLOCK_S = 60.0
 
@@ -33,7 +33,7 @@ class Wrong(Exception):
 
 
 def slowness():
-    """How many times longer than there a fixed piece of work takes now: a busy machine slows whatever runs on it."""
+    """The time that a fixed piece of work takes now, divided by YARDSTICK_S, at least 1: a busy machine slows all programs."""
     noise = random.Random(1).randbytes(12 << 20)
     begun = time.process_time()
     zlib.compress(noise, 9)
@@ -41,8 +41,8 @@ def slowness():
 
 
 def measure():
-    """Runs the commands that standard input names, a JSON list on each line, and says what each took. It is a process of its own
-    that stays small, because the memory of a program counts from that of the process that starts it."""
+    """Runs the commands on standard input, a JSON list on each line, and prints status, messages, memory and time of each. It is a small
+    process of its own, because the measured memory of a program is at least that of the process that starts it."""
     for line in sys.stdin:
         with subprocess.Popen(json.loads(line), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
             said = process.stderr.read()
@@ -108,7 +108,7 @@ def check(kiosk, case, stick):
 
 
 def check_good(kiosk, signer, folder, serial):
-    """Another stick, in the same library: a pack of its own, so that the hostile ones are still newer than what is installed."""
+    """Imports a good stick into the same library. Its pack has its own id, so that hostile packs stay newer than the installed ones."""
     description = plain_pack.manifest()
     description["sections"]["identity"]["data"]["id"] = "good"
     (folder / "good.fspack").write_bytes(plain_pack.pack(signer, serial, description))
@@ -121,7 +121,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--table", type=pathlib.Path)
-    parser.add_argument("--only", default="", help="those whose name contains this")
+    parser.add_argument("--only", default="", help="run only cases whose name contains this")
     parser.add_argument("--measure", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.measure:

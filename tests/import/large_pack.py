@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Gives frustumscreen-import a signed pack of nearly 2 GiB, as large as one may be: it is taken, in 64 MiB.
+"""Gives frustumscreen-import a signed pack of nearly 2 GiB, the largest allowed: it must be taken, with 64 MiB of memory.
 
-    large_pack.py BIN [FOLDER]    BIN: where the programs are; FOLDER: 4 GiB are free there
+    large_pack.py BIN [FOLDER]    BIN: the folder of the programs; FOLDER: a folder with 4 GiB free
 
 Exit status 77: a program that this needs is not on this machine, or there is no room.
 """
@@ -24,7 +24,7 @@ PARTS = 4
 
 
 def write_pack(file, signer):
-    """Stored, so that the file is as large as what it holds. All parts are the same zeros."""
+    """Writes the pack with stored parts, so that the file is as large as its contents. All parts are the same zeros."""
     data = bytes(PART_BYTES)
     description = plain_pack.manifest()
     names = [f"padding/{number}" for number in range(PARTS)]

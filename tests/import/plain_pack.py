@@ -1,4 +1,4 @@
-"""A pack of one triangle and one small picture, written from app/pack/FORMAT.md alone, so that each of its bytes can be wrong.
+"""A pack of one triangle and one small picture, written only from app/pack/FORMAT.md. A test can make each of its bytes wrong.
 
 Units    as in FORMAT.md.
 Errors   subprocess.CalledProcessError from minisign, which signs.
@@ -20,18 +20,18 @@ DATE = 0x0021  # 1980-01-01
 
 @dataclass
 class Entry:
-    """An entry of a ZIP. What is None is told truly."""
+    """An entry of a ZIP. A member that is None gets the true value; any other value is written as given, even if it is false."""
 
     name: bytes
     data: bytes
     method: int = DEFLATED
-    packed: bytes = None  # the bytes in the archive; of `data`
-    size: int = None  # what the directory says of its size
+    packed: bytes = None  # the bytes in the archive, packed from `data`
+    size: int = None  # its size in the directory
     packed_size: int = None
-    offset: int = None  # where the directory says that it lies
+    offset: int = None  # its offset in the directory
     flags: int = 0
     attributes: int = 0
-    local_name: bytes = None  # what the entry itself says of its name
+    local_name: bytes = None  # its name in its own header
     check: int = None  # CRC-32
 
 
@@ -41,7 +41,7 @@ def deflated(data):
 
 
 def zip_file(entries, count=None, before=b"", after=b""):
-    """The bytes of a ZIP. `count`: what its end says of the number of entries."""
+    """The bytes of a ZIP. `count`: the number of entries in its end record."""
     body, directory = bytearray(before), bytearray()
     for entry in entries:
         if entry.packed is None:
@@ -61,7 +61,7 @@ def zip_file(entries, count=None, before=b"", after=b""):
 
 
 def png(width=4, height=4, rows=None):
-    """An RGB picture; `rows`: its packed pixels, where they are not to fit."""
+    """An RGB picture; `rows`: packed pixels that do not fit the size, if given."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     if rows is None:
@@ -71,7 +71,7 @@ def png(width=4, height=4, rows=None):
 
 
 def triangle(clusters=((0, 3, 0.0, 0.0, 0.5, 1.0, 0.0, 0.0, -0.5, 0.0, 0.0, 1.0, 2.0),), counts=None, indices=(0, 1, 2)):
-    """The part levels/0.bin; `counts`: what it says of its vertices, indices and clusters."""
+    """The part levels/0.bin; `counts`: the numbers of vertices, indices and clusters in its header."""
     vertices = ((0, 0, 0), (65535, 65535, 0), (32768, 32768, 65535))
     counts = counts or (len(vertices), len(indices), len(clusters))
     return (b"FSLV" + struct.pack("<IIIII", 1, 0, *counts)
@@ -81,7 +81,7 @@ def triangle(clusters=((0, 3, 0.0, 0.0, 0.5, 1.0, 0.0, 0.0, -0.5, 0.0, 0.0, 1.0,
 
 
 def manifest():
-    """The manifest as values, but for `parts`."""
+    """The manifest as Python values, without `parts`."""
     return {
         "format": "FrustumScreen pack", "version": 2, "title": "Vase", "languages": ["en"],
         "captions": [{"language": "en", "title": "Vase", "text": "A vase."}],
@@ -109,7 +109,7 @@ def described(description, files):
 
 
 class Signer:
-    """A key pair of minisign's without a password."""
+    """A minisign key pair without a password."""
 
     def __init__(self, folder):
         self._folder = pathlib.Path(folder)
@@ -118,7 +118,7 @@ class Signer:
         subprocess.run(["minisign", "-G", "-W", "-f", "-p", self.public, "-s", self._secret], check=True, capture_output=True)
 
     def sign_all(self, texts, serial=20):
-        """The bytes of a .minisig file for each."""
+        """The bytes of a .minisig file for each text."""
         with tempfile.TemporaryDirectory(dir=self._folder) as folder:
             files = [pathlib.Path(folder) / str(number) for number in range(len(texts))]
             for file, text in zip(files, texts):
@@ -132,7 +132,7 @@ class Signer:
 
 
 def pack_entries(text, files, signature=None):
-    """The entries of a pack, in the order that FORMAT.md wants."""
+    """The entries of a pack, in the order that FORMAT.md requires."""
     entries = [Entry(b"manifest.json", text)]
     entries += [Entry(name.encode(), data, STORED if name.endswith(".png") else DEFLATED) for name, data in files.items()]
     if signature is not None:
@@ -141,7 +141,7 @@ def pack_entries(text, files, signature=None):
 
 
 def pack(signer=None, serial=20, description=None, files=None):
-    """The bytes of a pack, signed where there is a signer."""
+    """The bytes of a pack, signed if a signer is given."""
     files = parts() if files is None else files
     text = described(manifest() if description is None else description, files)
     return zip_file(pack_entries(text, files, signer and signer.sign(text, serial)))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Links every program with the preset odr: there GCC compares what all files of a program say of a type, and refuses two
-# definitions of one name. Before that, a program that has two must not link.
+# Links every program with the preset odr, in which GCC compares the definitions of a type in all files of a program and refuses two
+# different ones. First, as a control, a program with two definitions must not link.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$here/../..

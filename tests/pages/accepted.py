@@ -11,16 +11,16 @@ MODES = {
     "frustumscreen-bake": ("--watch", "--batch", "--check", "--words", "--prop-file"),
     "test": ("hil", "soak", "image --cuts", "image --start-time", "image"),
 }
-GUARD_S = 3600  # only against a program that never ends
+GUARD_S = 3600  # a limit only for a program that never ends
 
 
 @dataclasses.dataclass(frozen=True)
 class Accepted:
     options: frozenset
-    choices: dict  # of an option, where it has a few
+    choices: dict  # option -> its values, if it has a fixed few
     subcommands: frozenset
-    required: tuple  # each the names of one option
-    operands: int  # required ones
+    required: tuple  # required options, each a tuple of its names
+    operands: int  # number of required ones
 
 
 @functools.lru_cache(maxsize=None)
@@ -52,7 +52,7 @@ def read(program, words=()):
 
 
 def subcommands(text):
-    """CLI11's list below a heading, or the words between bars behind the program's name."""
+    """The subcommands: CLI11's list below a heading, or the words between bars after the program's name."""
     section = re.search(r"^Subcommands:\n((?:  .*\n?)+)", text, re.MULTILINE)
     if section:
         return re.findall(r"^  ([a-z][\w-]*)", section[1], re.MULTILINE)
@@ -75,7 +75,7 @@ def of_command(program, arguments):
 
 
 def objections(program, arguments):
-    """One sentence for each word that the program would not take."""
+    """One sentence for each word that the program would not accept."""
     try:
         accepted = of_command(program, arguments)
     except ValueError as error:
@@ -93,7 +93,7 @@ def objections(program, arguments):
 
 
 def is_complete(program, arguments):
-    """Whether all is named that the program requires, and a value at least; else it is a mention of the program or an option."""
+    """Whether the arguments have all that the program requires, and at least one value; otherwise they only mention program or option."""
     accepted = of_command(program, arguments)
     values = [word for word in arguments if not word.startswith("-") and word not in read(program).subcommands]
     named = all(any(name in arguments for name in names) for names in accepted.required)

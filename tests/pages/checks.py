@@ -1,4 +1,4 @@
-"""Holds a printed command against the programs: is there each, does it take what is said."""
+"""Checks a printed command against the programs: does each program exist, and does it accept the arguments."""
 
 import collections
 import pathlib
@@ -15,7 +15,7 @@ BUILTINS = ("cd", "export")
 
 
 class Checks:
-    """Other programs: `harmless` ones are run, `elsewhere` ones are not, and this machine may lack them."""
+    """`harmless`: other programs that are run. `elsewhere`: other programs that are not run, and that this machine may lack."""
 
     def __init__(self, source, build, harmless, elsewhere):
         self.source, self.build, self.harmless, self.elsewhere = source, build, harmless, elsewhere
@@ -49,7 +49,7 @@ class Checks:
         return word.startswith("frustumscreen") and not accepted.is_complete(self.programs[word], arguments)
 
     def may_run(self, command):
-        """Whether it runs only what is built or harmless, and asks for no rights."""
+        """Whether it runs only our built programs and harmless ones, without sudo."""
         paths = [(word, self._program(command, word)) for word, *_ in command.simple_commands()]
         return "sudo" not in command.text.split() and all(
             word in self.harmless or path and (path.name.startswith("mock_") or self.build in path.parents) for word, path in paths)
@@ -67,7 +67,7 @@ class Checks:
         return accepted.objections(path, arguments) if path and arguments else []
 
     def _finds_tests(self, arguments):
-        """From another folder: even to list tests, ctest begins a new log in its own, where the log of a run that goes on would be lost."""
+        """Lists the tests from another folder, because even a list begins a new log in ctest's folder, over the log of a running test."""
         with tempfile.TemporaryDirectory() as folder:
             places = [self.source / after for before, after in zip(arguments, arguments[1:]) if before == "--test-dir"]
             (pathlib.Path(folder) / "CTestTestfile.cmake").write_text("".join(f'subdirs("{place}")\n' for place in places), encoding="utf-8")
@@ -78,7 +78,7 @@ class Checks:
         return re.search(rf"\b{re.escape(name)}\b", self.targets)
 
     def _program(self, command, word):
-        """The path of one of ours; None: another's, or a test. A ValueError: there is none."""
+        """The path of one of our programs; None for another program or a test. A ValueError: there is no such program."""
         if word in self.programs:
             return self.programs[word]
         if word.startswith("build/release/tests/"):

@@ -1,8 +1,8 @@
 """The commands that pages and help texts print.
 
-A fenced block without a language is commands, one a line; what is not, such as a printout, names its language ("text"). A code span
-of a paragraph is a command if it begins with one of our programs, and short for one if it begins with a subcommand and an option, or
-with an option.
+A fenced block without a language has commands, one a line; any other block, such as a printout, names its language ("text"). A code span
+in a paragraph is a command if it begins with one of our programs. It is a shortened command if it begins with a subcommand and an option,
+or with an option.
 """
 
 import dataclasses
@@ -33,7 +33,7 @@ class Command:
         return OPTIONAL.sub("", self.text)
 
     def simple_commands(self):
-        """The words of each command of the line, those in brackets too."""
+        """The words of each command of the line, also those in brackets."""
         text = OPTIONAL.sub(lambda part: " " + part[1].replace("|", " "), self.text)
         lexer = shlex.shlex(text, posix=True, punctuation_chars=True)
         lexer.whitespace_split = True
@@ -52,7 +52,7 @@ class Command:
 
 
 def without_prefix(words):
-    """Without what stands before the program: sudo, settings of variables."""
+    """The words without those before the program: sudo, settings of variables."""
     while words and (words[0] in ("sudo", "export") or re.match(r"\w+=", words[0])):
         words = words[1:]
     return words
@@ -71,7 +71,7 @@ def without_comment(line):
 
 
 def joined(lines):
-    """(number of the first, text) of each command: lines that end with a backslash go on in the next."""
+    """(number of its first line, text) of each command; a line that ends with a backslash continues in the next."""
     begun, text = 0, ""
     for number, line in lines:
         line = without_comment(line.strip())
@@ -86,7 +86,7 @@ def joined(lines):
 
 
 def parts_of(page):
-    """The commands' blocks of a page as [(number, line)], and all its other text with every block blanked."""
+    """The blocks of commands of a page, each as [(number, line)], and the whole text with all blocks blanked."""
     blocks, rest, language = [], [], None
     for number, line in enumerate(page.splitlines(), 1):
         fence = FENCE.match(line)
@@ -104,7 +104,7 @@ def parts_of(page):
 
 
 def commands_of(name, page, subcommands=()):
-    """All of a page, blocks first. `subcommands`: those of our programs, for code spans that leave the program's name out."""
+    """All commands of a page, blocks first. `subcommands`: those of our programs, for code spans without the program's name."""
     blocks, rest = parts_of(page)
     found = [Command(name, number, text) for block in blocks for number, text in joined(block)]
     for span in SPAN.finditer(rest):

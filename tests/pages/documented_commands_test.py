@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Every command that a page or a --help prints: the programs take it, and it is run as printed or stands in commands.toml with the reason.
+"""Checks every command that a page or a --help prints: the programs accept it, and it runs as printed or commands.toml says why not.
 
-    documented_commands_test.py SOURCE BUILD [--long] [--only PAGE]    --long: with those that take long
+    documented_commands_test.py SOURCE BUILD [--long] [--only PAGE]    --long: also commands that take long
 
-Each page has a working folder, in which its commands run one after another, so that a command finds what an earlier one made;
-commands.toml says what is there before. The exit status is to be 0, and standard error without the word "error".
+Each page has a working folder, in which its commands run one after another, so that a command finds the files of earlier ones;
+commands.toml lists the files that are there before. The exit status must be 0, and standard error must not have the word "error".
 """
 
 import argparse
@@ -24,7 +24,7 @@ from checks import Checks
 from commands import commands_of, examples_of
 
 HISTORY = "CHANGELOG.md"
-GUARD_S = 3600  # only against a command that never ends
+GUARD_S = 3600  # a limit only for a command that never ends
 
 
 class Table:
@@ -41,7 +41,7 @@ class Table:
         return bool(matches)
 
     def mistakes(self, source, printed):
-        """Entries without a reason, and what is not there any more."""
+        """Entries without a reason, and entries for files, commands or pages that do not exist."""
         for kind in ("not_run", "long"):
             for number, entry in enumerate(self.words[kind]):
                 if not entry.get("reason"):
@@ -55,7 +55,7 @@ class Table:
 
 
 def printed_commands(source, helps, subcommands):
-    """By page or help text, in the order of their lines."""
+    """The commands of each page or help text, in the order of their lines."""
     found = {}
     for path in sorted(source.rglob("*.md")):
         name = str(path.relative_to(source))
@@ -78,7 +78,7 @@ class Runner:
 
     def __init__(self, words, whole, source, build):
         self.words, self.whole = words, whole
-        kept = {name: value for name, value in os.environ.items() if name.startswith("MALLOC_")}  # of run_test.sh
+        kept = {name: value for name, value in os.environ.items() if name.startswith("MALLOC_")}  # set by run_test.sh
         self.variables = kept | {"PATH": f"{build / 'bin'}:/usr/bin:/bin", "LC_ALL": "C.UTF-8", "SOURCE": str(source), "BUILD": str(build),
                           "SHELF": str(whole / "shelf")}
 
@@ -105,7 +105,7 @@ class Runner:
         self.run(page.get("finish", ""), folder)
 
     def run(self, script, folder):
-        """Nothing, or what went wrong."""
+        """None, or a text that says what went wrong."""
         folder.mkdir(exist_ok=True)
         variables = self.variables | {"HOME": str(folder), "TMPDIR": str(folder)}
         try:
@@ -123,7 +123,7 @@ def main():
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--long", action="store_true")
-    parser.add_argument("--only", help="run the commands of this page alone")
+    parser.add_argument("--only", help="run only the commands of this page")
     arguments = parser.parse_args()
     source, build = arguments.source.resolve(), arguments.build.resolve()
     table = Table()

@@ -1,5 +1,5 @@
-"""Writes what the commands of docs/calibration.md read, of the table in true_table.py: touches.csv, rests.csv, corners.csv, sights.csv and
-two kept calibrations, calibration/calibration-000N.toml.
+"""Writes the files that the commands of docs/calibration.md read, for the table of true_table.py: touches.csv, rests.csv, corners.csv,
+sights.csv and two kept calibrations, calibration/calibration-000N.toml.
 
     make_points.py FOLDER
 """
@@ -28,7 +28,7 @@ def report(rotation, place):
 def touches():
     for number, (u, v) in enumerate(PLACES):
         block = 0.12 if number % 2 else 0.0
-        lies = math.pi / 2 if number % 4 == 3 else 0.0  # on a side, which tells how high the sensor is
+        lies = math.pi / 2 if number % 4 == 3 else 0.0  # on a side, which determines the sensor's height
         rotation = times(turn((0, 0, 1), 1.2 * (number % 3) - 1.0), turn((1, 0, 0), lies))
         yield (*report(rotation, plus(TABLE.light(u, v, block), apply(rotation, (0.0, 0.0, SENSOR_M)))), u, v, block)
 

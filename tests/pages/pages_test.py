@@ -1,4 +1,4 @@
-"""documented_commands_test.py finds the commands, and reports a wrong one with page and line.
+"""Tests that documented_commands_test.py finds the commands, and reports a wrong one with page and line.
 
     pages_test.py SOURCE BUILD
 """
@@ -67,7 +67,7 @@ class Teeth(unittest.TestCase):
         cls.checks = Checks(SOURCE, BUILD, ["cp"], ())
 
     def wrong(self, line):
-        """(place, what is said) of a page with this line, and a right one before."""
+        """(place, objections) for a page with this line after a correct one."""
         page = f"```\nfrustumscreen states --dot\n{line}\n```\n"
         return [(command.place, wrong) for command in commands_of("docs/page.md", page) for wrong in self.checks.objections(command)]
 
@@ -115,7 +115,7 @@ class Teeth(unittest.TestCase):
 
 
 class Zone(unittest.TestCase):
-    """The zones that pages promise are those that the settings give."""
+    """The zones in the pages' text equal those that follow from the settings."""
 
     def lit_zone(self, settings):
         ran = subprocess.run([BUILD / "bin/frustumscreen", "config", "--config", SOURCE / "config" / settings, "--json"],

@@ -1,4 +1,4 @@
-"""docs/rooms.md is what cmake/rooms_page.py prints, and its examples are those of tests/examples.
+"""Tests that docs/rooms.md equals the output of cmake/rooms_page.py, and that its examples are those of tests/examples.
 
     rooms_page_test.py SOURCE
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Looks at a preview's page as a browser would that trusts nothing: what it may load, what runs, what it says.
+"""Checks a preview's page as a strict browser would: what it may load, which scripts run, and its text.
 
     check_page.py PAGE [--reloads] [--sounds N] [--pictures N] [--text WORDS]...
 
@@ -64,7 +64,7 @@ def check_policy(page):
     assert rules["default-src"] == {"'none'"}, page.policy
     assert rules["img-src"] == rules["media-src"] == {"data:"}, page.policy
     assert rules["style-src"] == hashes(page.inline["style"]), "the style is not the one that the policy allows"
-    # A page that no longer loads itself again still allows the script that it had for it.
+    # The policy of a page that does not reload itself may still allow the script for reloading.
     missing = hashes(page.inline["script"]) - rules["script-src"]
     assert not missing and len(rules["script-src"]) <= 2, page.policy
     assert all(value.startswith("'sha256-") for value in rules["script-src"] | rules["style-src"])

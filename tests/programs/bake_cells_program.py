@@ -1,8 +1,8 @@
-"""`frustumscreen-bake` on a chest whose lid turns by an animation: counts and poses of the cells, worked out here.
+"""Tests `frustumscreen-bake` on a chest whose lid turns by an animation: counts and poses of the cells, against values computed here.
 
     bake_cells_program.py PROGRAMS
 
-The pack is read as what it is, a ZIP file with a manifest in JSON.
+The pack is read here as a ZIP file with a manifest in JSON, without the code of the programs.
 """
 
 import base64
@@ -34,7 +34,7 @@ ANGLES = [0.0, 30.0, 110.0]
 
 
 def gltf():
-    """The scene: a chest, and from it a hinge with the lid's mesh. The animation turns the hinge about z."""
+    """The scene: a chest with a child, a hinge that has the lid's mesh. The animation turns the hinge about z."""
     document = {"asset": {"version": "2.0"}, "buffers": [], "bufferViews": [], "accessors": [],
                 "meshes": [], "scene": 0, "scenes": [{"nodes": [0]}],
                 "nodes": [{"name": "chest", "mesh": 0, "children": [1], "scale": [0.1, 0.1, 0.1]},
@@ -61,7 +61,7 @@ def gltf():
 
 
 def still_after(stiffness, damping):
-    """Seconds until a thousandth of the way is left for good, by small steps."""
+    """Seconds after which the spring stays within a thousandth of the way from its end, by small steps."""
     x, v, step, last = 0.0, 0.0, 1e-4, 0.0
     for k in range(200000):
         v += (stiffness * (1 - x) - damping * v) * step
@@ -79,7 +79,7 @@ class BakeCells(unittest.TestCase):
         (self.folder / "chest.gltf").write_text(json.dumps(gltf()))
 
     def bake(self, *more, given="chest.gltf", status=0):
-        """The report of a bake, or what it says on standard error."""
+        """The report of a bake, or its messages on standard error."""
         command = [PROGRAM, given, "-o", "chest.fspack", "--size", "32", "--turn", "0", "--no-relief", "--speech", "none", "--json", *more]
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, status, done.stderr)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A Slurm cluster of one node for one command: munged, slurmctld and slurmd of Debian's slurm-wlm, in a folder, a network and a
-# process tree of their own. All of it ends with the command.
+# Runs one command with a Slurm cluster of one node: munged, slurmctld and slurmd of Debian's slurm-wlm, in a folder, a network and a
+# process tree of their own. The cluster ends with the command.
 #
 #   slurm_cluster.sh FOLDER COMMAND...     FOLDER is empty; needs root. The command has SLURM_CONF in its environment.
 set -euo pipefail
@@ -11,7 +11,7 @@ fi
 folder=$(realpath "$2")
 shift 2
 
-# Slurm wants an address that is none of loopback's; lo gets one, as `ip address add` would do it.
+# Slurm needs an address outside 127.0.0.0/8; lo gets one, as `ip address add` would do it.
 address=10.9.8.7
 python3 - "$address" <<'PYTHON'
 import fcntl

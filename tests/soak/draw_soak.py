@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws a soak: memory of exhibit, watchdog and system, and when the screen was dark, over time.
+"""Draws a soak over time: memory of exhibit, watchdog and system, and the times when the screen was dark.
 
     draw_soak.py MEASURED.json OUT.svg
 """

@@ -1,4 +1,4 @@
-"""The faults of a soak, each done to the kiosk and undone again; and which of the watchdog's steps each may cause.
+"""The faults of a soak: each is injected into the kiosk and removed again; and the watchdog's steps that each may cause.
 
 Threads  one caller, that of the kiosk.
 """
@@ -23,7 +23,7 @@ BACK_S, IMPORT_S = 60.0, 120.0
 
 @dataclass
 class Done:
-    """One fault that was injected. `came_back`: all was well again in time."""
+    """A fault that was injected. `came_back`: the kiosk recovered in time."""
 
     kind: str
     begin_s: float
@@ -34,7 +34,7 @@ class Done:
 
 
 class Faults:
-    """`packs`: folder of signed and unsigned packs, made by `Packs`."""
+    """`packs`: a `Packs`, which makes signed and unsigned packs."""
 
     def __init__(self, kiosk, packs, seed):
         self.kiosk, self.packs, self.random = kiosk, packs, random.Random(seed)
@@ -99,7 +99,7 @@ class Faults:
         return self.kiosk.until(lambda: self.kiosk.process_of(EXHIBIT) not in (0, process) and self.kiosk.is_lit(), BACK_S)
 
     def _disk_full(self):
-        """Fills the partition up to root's reserve, with hardly a block written. The second writer ends when no space is left."""
+        """Fills the partition with few written blocks: fallocate leaves 4 MiB, and a second writer fills these until no space is left."""
         machine = self.kiosk.machine
         free = "df -k /data | awk 'NR == 2 { print $4 }'"
         machine.check(f"fallocate -l $((($({free}) - 4096) * 1024)) /data/full; head -c 6291456 /dev/zero > /data/rest || true")
@@ -120,7 +120,7 @@ class Faults:
     # Sticks.
 
     def _outcome(self, name, image, pull_at=None):
-        """Puts a stick in, and takes it out when its import has ended, or at this stage; the last report."""
+        """Puts a stick in, and takes it out when its import has ended or reaches the stage `pull_at`; returns the last report."""
         kiosk, seen = self.kiosk, [{}]
         before = kiosk.machine.read(REPORT) or ""
 
@@ -170,15 +170,16 @@ class Faults:
 KINDS = [name[1:] for name in vars(Faults) if name.startswith("_") and name.strip("_") in (
     "tracker_unplugged", "tracker_hangs", "tracker_hangs_until_reset", "tracker_noise", "panel_unplugged", "button_bounces",
     "projector_unplugged", "killed", "disk_full", "clock_leaps", "stick_good", "stick_unsigned", "stick_pulled")]
-# The time before the ladder restarts for a fault: its ten good minutes (app/watch/ladder.h), and as many again for faults between.
+# The time after a fault until the recovery ladder begins at its first step again: ten minutes without a fault (app/watch/ladder.h), and as
+# many again because other faults may come between.
 RESTS_S = {"tracker_hangs_until_reset": 1200.0}
-# The watchdog's steps that are not false alarms: (cause, beginning of the step), by fault.
+# Fault -> causes of the watchdog's steps that are no false alarms after it.
 MAY_CAUSE = {"tracker_hangs_until_reset": {"device_silent"}, "killed": {"keeps_ending"}}
 ENDS_EXHIBIT = {"killed"}
 
 
 class Packs:
-    """Packs that are signed with a key that the kiosk knows."""
+    """Makes packs that are signed with a key that the kiosk knows, and an unsigned one."""
 
     def __init__(self, program, built_in, folder):
         self.folder, self._program = folder, program
@@ -192,7 +193,7 @@ class Packs:
         subprocess.run([self._program, *(str(word) for word in words)], check=True, capture_output=True)
 
     def settings(self):
-        """The settings that a kiosk needs to accept them."""
+        """The settings that a kiosk needs to accept the signed packs."""
         public = self._key.with_suffix(".pub").read_text(encoding="utf-8").splitlines()[1]
         return f'\n[[exhibit.keys]]\nname = "Museum"\npublic_key = "{public}"\nuntil = "2099-12-31"\n'
 
@@ -206,7 +207,7 @@ class Packs:
         return self._signed(path, serial)
 
     def large(self, serial):
-        """Takes some seconds to copy."""
+        """A pack that takes some seconds to copy."""
         path = self.folder / "large.fspack"
         description = plain_pack.manifest()
         description["sections"]["noise"] = {"parts": ["noise.bin"], "data": {}}
@@ -220,5 +221,5 @@ class Packs:
 
 
 def with_keys(machine, packs):
-    """Tells the kiosk the museum's key; the importer alone asks for it, so the exhibit goes on."""
+    """Adds the museum's key to the kiosk's settings; only the importer reads it, so the exhibit need not be restarted."""
     machine.write(SETTINGS, machine.read(SETTINGS) + packs.settings())

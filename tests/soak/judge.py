@@ -1,23 +1,23 @@
-"""The findings of a soak: availability, slopes of memory, writes, ends, steps; and whether the limits hold.
+"""Computes the findings of a soak: availability, slopes of memory, writes, ends, steps; and whether the limits hold.
 
-Units    MiB, seconds and hours as named; `pace`: the exhibit's hours for each hour that passed.
+Units    MiB, seconds and hours as named; `pace`: the exhibit's hours in each hour that passed.
 Threads  any.
 Source   Theil (1950) and Sen (1968): the slope is the median of those between all pairs of samples, its confidence interval from the
-         distribution of Kendall's S. Pairs are of one process only, so that a restart is no slope.
+         distribution of Kendall's S. Both samples of a pair are of one process, so that a restart is no slope.
 """
 
 import math
 import statistics
 
 LIMITS = {"memory_mb_per_h": 1.0, "longest_dark_s": 60.0, "false_alarms": 0, "not_back": 0, "unexpected_ends": 0}
-WARM_UP_S = 60.0  # a process loads, and fills its caches
-LEAST_SPAN_S = 1200.0  # of one process after that: steps, such as a language's texts that are loaded once, are no slope yet
-LATER_S = 90.0  # so long after a fault something may still be due to it
+WARM_UP_S = 60.0  # in which a process loads and fills its caches; not counted
+LEAST_SPAN_S = 1200.0  # of one process after that; in a shorter span, a single step (a language's texts are loaded) looks like a slope
+LATER_S = 90.0  # so long after a fault, an event may still be due to it
 Z95 = 1.96
 
 
 def theil_sen(runs):
-    """(slope, low, high) of 95 % of several runs [(x, y)...] with a common slope; None: fewer than eight samples."""
+    """(slope, low, high) of several runs [(x, y)...] with a common slope; low and high bound 95 %. None: fewer than eight samples."""
     slopes, variance = [], 0.0
     for run in runs:
         n = len(run)
@@ -33,7 +33,7 @@ def theil_sen(runs):
 
 
 def runs_of(samples, value, pid=None):
-    """(hours, MB) of each process after its first minute; of the system, which runs through: after the soak's."""
+    """(hours, MB) of each process, without its first minute; of the system, which is not restarted, without the soak's first minute."""
     runs, first = {}, {}
     for sample in samples:
         key = sample[pid] if pid else 0
@@ -59,7 +59,7 @@ def slope(samples, value, pid, pace):
 
 
 def dark(looks):
-    """(share of the time that was lit, the longest dark time in seconds)."""
+    """(share of the time in which the screen was lit, the longest dark time in seconds)."""
     total = lit = longest = current = 0.0
     for (before, was_lit), (at, is_lit) in zip(looks, looks[1:]):
         step = at - before
@@ -78,13 +78,13 @@ def within(uptime_s, faults, kinds):
 
 
 def due_to(uptime_s, faults):
-    """The latest fault before this time."""
+    """The kind of the latest fault before this time."""
     before = [fault["kind"] for fault in faults if fault["begin_uptime_s"] - 2.0 <= uptime_s]
     return before[-1] if before else "nothing"
 
 
 def totals(samples, value, pid):
-    """A count that restarts with each process, summed over all of them, from the first sample on."""
+    """The increase since the first sample of a count that restarts with each process."""
     total, last, process = 0, None, None
     for sample in samples:
         if sample[pid] != process or last is None or sample[value] < last:
@@ -96,7 +96,7 @@ def totals(samples, value, pid):
 
 
 def written(samples, faults, hours):
-    """Bytes and writes to the data partition: in all, and where no stick and no full disk was the reason."""
+    """Bytes and writes to the data partition: in all, and outside the times of sticks and of the full disk."""
     busy = [(fault["begin_s"] - 1.0, fault["end_s"] + 30.0) for fault in faults
             if fault["kind"] == "disk_full" or fault["kind"].startswith("stick_")]
     quiet_bytes = quiet_writes = quiet_s = 0
@@ -113,7 +113,7 @@ def written(samples, faults, hours):
 
 
 def judged(found, may_cause, ends_exhibit):
-    """The report. `found`: samples, looks, steps, ends, faults, pace, events; all as run_soak.py keeps them."""
+    """The report. `found`: samples, looks, steps, ends, faults, pace, events, as run_soak.py collects them."""
     samples, faults, pace = found["samples"], found["faults"], found["pace"]
     hours = (found["looks"][-1][0] - found["looks"][0][0]) / 3600.0
     share, longest = dark(found["looks"])

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The soak's judge on made-up soaks with known truth."""
+"""Tests the soak's judge on artificial soaks with known truth."""
 
 import random
 import unittest
@@ -16,7 +16,7 @@ def fault(kind, begin_s, end_s, came_back=True):
 
 
 def samples(leak_mib_per_h, seed=1, restart_at_s=1800.0, length_s=3600.0):
-    """Every 5 s, with noise of 0.3 MiB and now and then a peak; another process after the restart, 40 MiB larger."""
+    """Samples every 5 s, with noise of 0.3 MiB and some peaks; after the restart another process, 40 MiB larger."""
     dice = random.Random(seed)
     found = []
     for at in range(0, int(length_s), 5):
@@ -47,7 +47,7 @@ class Slopes(unittest.TestCase):
         self.assertAlmostEqual(judge.theil_sen([run])[0], 2.5, delta=0.01)
 
     def test_interval_holds_the_truth(self):
-        """In 95 % of soaks; of a hundred, 86 at least (one in 10 000 tests would find fewer by chance)."""
+        """The interval contains the true slope in 95 % of soaks; the test demands 86 of 100 (by chance, 1 in 10 000 tests finds fewer)."""
         held = 0
         for seed in range(100):
             dice = random.Random(seed)
@@ -62,14 +62,14 @@ class Slopes(unittest.TestCase):
         self.assertEqual(memory["verdict"], "holds")
 
     def test_a_leak_is_missed(self):
-        """20 MiB an hour of ours are 2.6 MB an hour of the exhibit's."""
+        """20 MiB in an hour that passed are 2.6 MB in an hour of the exhibit's time."""
         report = soak(samples=samples(20.0))
         self.assertAlmostEqual(report["memory"]["exhibit"]["mb_per_exhibit_h"], 20.0 * 1.048576 / PACE, delta=0.3)
         self.assertEqual(report["memory"]["exhibit"]["verdict"], "missed")
         self.assertEqual(len(report["missed"]), 1)
 
     def test_too_short_is_said(self):
-        """Nineteen minutes after the first are no slope, whatever the samples say."""
+        """Nineteen minutes after the first minute are too short for a slope, whatever the samples are."""
         self.assertEqual(soak(samples=samples(60.0, length_s=1200.0))["memory"]["exhibit"]["verdict"], "too short to say")
         self.assertEqual(soak(samples=samples(0.0, length_s=120.0))["memory"]["exhibit"]["verdict"], "too short to say")
         self.assertEqual(soak(samples=samples(0.0, length_s=70.0))["memory"]["exhibit"]["verdict"], "too few samples")
@@ -108,11 +108,11 @@ class Counts(unittest.TestCase):
         self.assertIn("unplugged", report["missed"][0])
 
     def test_counts_go_on_over_a_restart(self):
-        """30 a second, but for the step from the one process's last sample to the other's first."""
+        """30 a second, except between the last sample of one process and the first sample of the next."""
         self.assertAlmostEqual(soak()["events"]["frames"], 30 * 3590, delta=30 * 10)
 
     def test_writes_without_sticks(self):
-        """1000 bytes a second, also beside a stick that is left out."""
+        """1000 bytes a second, also if the time of a stick is left out."""
         written = soak(faults=[fault("stick_good", 1000.0, 1100.0)])["written"]
         self.assertAlmostEqual(written["without_sticks"]["bytes_per_h_passed"], 3.6e6, delta=1.0)
         self.assertAlmostEqual(written["without_sticks"]["s"], 3595.0 - 135.0, delta=10.0)
@@ -136,7 +136,7 @@ class Plan(unittest.TestCase):
         self.assertLess(times[0], 3600.0)
 
     def test_room_between(self):
-        """3.2 hours, rounded up: after the first hour the fifth."""
+        """3.2 hours are rounded up to four: the fault comes in the first and in the fifth hour."""
         times = [event.at_s for event in day.plan(8.0, self.KINDS, 3, (), {"kind 4": 3.2}) if event.kind == "kind 4"]
         self.assertEqual([int(at // 3600.0) for at in times], [0, 4])
 

@@ -1,9 +1,9 @@
-"""The soak's kiosk: the product image in the emulated PC with a tracker, buttons and sticks, looked at all the while.
+"""The soak's kiosk: the product image in the emulated PC with a tracker, buttons and sticks, observed all the time.
 
-Time     seconds that the host granted the guest since the soak began (tests/hil/machine.py), where nothing else is said.
-Threads  one caller. Whoever waits does so by `rest` or `until`: these look at the screen four times a second, and take a sample of
-         memory, disk and programs every few seconds.
-Errors   MachineError: the machine itself fails; else nothing is raised, what is wrong is counted.
+Time     seconds that the host granted the guest since the soak began (tests/hil/machine.py), unless a comment says otherwise.
+Threads  one caller. Wait only by `rest` or `until`: they check the screen four times a second, and take a sample of memory, disk and
+         programs every few seconds.
+Errors   MachineError: the machine itself fails. Faults of the exhibit raise nothing; they are counted.
 """
 
 import json
@@ -27,17 +27,17 @@ CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"
 SETTINGS = "/etc/frustumscreen/kiosk.toml"
 LOOK_S, SAMPLE_S = 0.25, 5.0
 LIT_PIXELS = 300
-STANDS_S = 3.0  # a picture at rest has another code every second; one that stands longer is not alive
+STANDS_S = 3.0  # even the picture of a resting exhibit changes its code every second; one that keeps it longer is not live
 
 
 @dataclass
 class Sample:
-    """One look at memory, disk and programs. MiB, and counts since the machine started."""
+    """One sample of memory, disk and programs. Memory in MiB; counts since the machine started."""
 
     at_s: float
     uptime_s: float  # the guest's own
     system_mib: float  # MemTotal - MemAvailable
-    exhibit_mib: float = None  # what its process alone has, and its share of what it shares (PSS); None: none runs
+    exhibit_mib: float = None  # its process's own memory and its share of common pages (PSS); None: no process runs
     watchdog_mib: float = None
     exhibit_pid: int = 0
     watchdog_pid: int = 0
@@ -47,7 +47,7 @@ class Sample:
     frames: int = 0  # of this process
     drawn: int = 0
     packets: int = 0
-    exhibit_own_mib: float = None  # of exhibit_mib what is in no file: a leak would be here; pages of files are read again
+    exhibit_own_mib: float = None  # the part of exhibit_mib that is not pages of files; a leak shows here
 
 
 @dataclass
@@ -56,7 +56,7 @@ class Log:
 
     samples: list = field(default_factory=list)
     looks: list = field(default_factory=list)  # (at_s, lit)
-    steps: list = field(default_factory=list)  # the watchdog's, as it says them
+    steps: list = field(default_factory=list)  # the watchdog's, from its status
     events: dict = field(default_factory=dict)  # name -> count
 
 
@@ -133,7 +133,7 @@ class Kiosk:
     # Looking.
 
     def is_lit(self):
-        """True if the picture changes and lights something."""
+        """True if the picture is live (its code changes) and enough of it is lit."""
         self.machine.screendump(self._picture)
         picture = screen.read_ppm(self._picture)
         code, now = screen.probe(picture), self.now_s()
@@ -152,7 +152,7 @@ class Kiosk:
         return int(words[0]) if words else 0
 
     def _memory(self, pid):
-        """(all, what is in no file)"""
+        """(PSS, its part that is not pages of files), MiB"""
         rows = dict(re.findall(r"^(\w+):\s+(\d+) kB", self.machine.read(f"/proc/{pid}/smaps_rollup") or "", re.M)) if pid else {}
         return (int(rows["Pss"]) / 1024, int(rows["Pss_Anon"]) / 1024) if rows else (None, None)
 
@@ -179,7 +179,7 @@ class Kiosk:
             status.get("frames", 0), status.get("drawn", 0), (status.get("tracker_counts") or {}).get("frames", 0), own)
 
     def ends(self):
-        """How the exhibit's process ended, each time: (uptime in seconds, result)."""
+        """Each end of the exhibit's process: (uptime in seconds, result)."""
         lines = (self.machine.read("/run/frustumscreen/ends") or "").splitlines()
         return [(float(line.split()[0]), " ".join(line.split()[1:])) for line in lines if line.split()]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The soak: hours of a museum on the kiosk's own image, in an emulated PC, with visitors and faults. `./test soak` calls this.
 
-Exit status   1: a limit is missed, each told in a sentence; 2: wrong use.
+Exit status   1: limits are missed, with a sentence for each; 2: wrong use.
 """
 
 import argparse
@@ -23,7 +23,7 @@ import write_report
 from family import Ended, Family  # from tests/hil, by kiosk
 
 CHECKOUT = HERE.parent.parent
-VISIT_S = 120.0  # of the pose file, which repeats
+VISIT_S = 120.0  # length of the pose file, which repeats
 LIT_S, SETTLE_S = 400.0, 10.0
 
 
@@ -33,11 +33,11 @@ def say(text):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./test soak", description=__doc__)
-    parser.add_argument("--all", action="store_true", help="eight hours of the exhibit's time, an hour of ours")
-    parser.add_argument("--hours", type=float, help="of the exhibit's time (0.4; with --all 8)")
-    parser.add_argument("--pace", type=float, default=8.0, help="so many of its hours in one of ours (8); 1 compresses nothing")
+    parser.add_argument("--all", action="store_true", help="eight hours of the exhibit's time, in one hour")
+    parser.add_argument("--hours", type=float, help="hours of the exhibit's time (0.4; with --all 8)")
+    parser.add_argument("--pace", type=float, default=8.0, help="hours of the exhibit's time in an hour (8); 1: real time")
     parser.add_argument("--seed", type=int, default=1, help="of visitors and faults (1)")
-    parser.add_argument("--faults", help="only these kinds, with commas between")
+    parser.add_argument("--faults", help="only these kinds, separated by commas")
     parser.add_argument("--out", type=pathlib.Path, default=CHECKOUT / "out" / "soak")
     arguments = parser.parse_args()
     arguments.hours = arguments.hours or (8.0 if arguments.all else 0.4)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ./test soak: makes the kiosk's image for tests, and soaks it; docs/soak.md says in what. Options are those of run_soak.py.
+# ./test soak: makes the kiosk's image for tests, and runs the soak on it (docs/soak.md). Options are those of run_soak.py.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."

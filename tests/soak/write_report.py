@@ -1,6 +1,6 @@
 """A soak's report as Markdown."""
 
-# At a museum, each day of eight hours: what we reckon with. None: it does not happen so often that a rate could be named.
+# How often each event is assumed to happen at a museum, in a day of eight hours. None: it is too rare for a rate.
 USUAL_PER_DAY = {"presses of buttons": 480, "replugs of the tracker": 1, "replugs of the buttons": 0.2, "replugs of the projector": 1,
                  "sticks": 0.1, "sets switched": 0.05, "frames": 30 * 8 * 3600, "tracker packets": 240 * 8 * 3600}
 

@@ -1,8 +1,9 @@
-"""`frustumscreen-bake --prop-file` on random bodies, against SciPy's hulls: faces, normals, volume, least width.
+"""Tests `frustumscreen-bake --prop-file` on random bodies, against SciPy's hulls: faces, normals, volume, least width.
 
     prop_file_program.py PROGRAMS
 
-The least width is the least distance of a face of the body's difference with itself from the origin: no formula that app/solid has.
+The least width is computed here as the least distance of a face of the body's difference with itself from the origin, a formula that
+app/solid does not use.
 """
 
 import json
@@ -52,7 +53,7 @@ def obj(triangles):
 
 
 def different_normals(hull):
-    """The normals of the faces, without those of triangles that share a face with another."""
+    """The normals of the faces, one for all triangles of a face."""
     normals = []
     for normal in hull.equations[:, :3]:
         if not any(normal @ other > 1 - 1e-9 for other in normals):
@@ -61,7 +62,7 @@ def different_normals(hull):
 
 
 def is_generic(hull, normals):
-    """No edge shorter than 3 mm, and faces at 8 degrees to each other or more: others may be read as another body."""
+    """Whether no edge is shorter than 3 mm and faces are at 8 degrees or more to each other; others may be read as another body."""
     points = hull.points[hull.vertices]
     gaps = np.linalg.norm(points[:, None] - points, axis=2) + 1e9 * np.eye(len(points))
     cosines = normals @ normals.T - 2 * np.eye(len(normals))

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""How long after a press speech begins, on the wall's clock: presses of a script, and the first sample of what is heard.
+"""Measures the time from a press to the beginning of speech, in real time: a script presses, and the first sample of sound is found.
 
-    tests/sound/speech_delay.py BIN PACK... [--presses N]    BIN: where frustumscreen is; PACK: with a spoken description
+    tests/sound/speech_delay.py BIN PACK... [--presses N]    BIN: the folder of frustumscreen; PACK: has a spoken description
 
-Recordings are read by their thread, as on a kiosk. The sound goes into a file: a sound card adds its own ring, 50 ms at most.
+A thread reads the recordings, as on a kiosk. The sound goes into a file: a sound card adds its own ring buffer, 50 ms at most.
 """
 
 import argparse
@@ -14,8 +14,8 @@ import tempfile
 import wave
 
 FIRST_S = 4.0
-APART_S = 3.0137  # never twice at the same place between two frames
-TALKS_S = 1.3  # then the next thing is asked for, which is silent
+APART_S = 3.0137  # between presses; not a multiple of a frame, so that each press comes at another place between two frames
+TALKS_S = 1.3  # after this time a second press asks for something silent
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("bin", type=pathlib.Path)

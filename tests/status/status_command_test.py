@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""`frustumscreen status` on files that an exhibit, its watchdog and systemd could have left, and on hostile ones.
+"""Tests `frustumscreen status` on files that an exhibit, its watchdog and systemd could have left, and on hostile ones.
 
 status_command_test.py PROGRAM [unittest's arguments]
 """
@@ -26,7 +26,7 @@ def boot_id():
 
 
 def exhibit(**changes):
-    """A status as docs/status.md has it, written now."""
+    """A status as in docs/status.md, written now."""
     status = {
         "written_at": "2026-05-01T10:00:00Z", "monotonic_ns": time.monotonic_ns(), "boot_id": boot_id(),
         "versions": {"program": "1.2.3", "pack_format": 2, "system": "Debian GNU/Linux 12, Linux 6.1"},
@@ -51,7 +51,7 @@ def device(ok, short_name, impaired=False):
 
 
 def devices(**changes):
-    """As an exhibit with all its devices has it; the settings ask for no camera and no screen."""
+    """The devices of an exhibit that has all of them; the settings have no camera and no screen."""
     all_well = {"display": device(True, "display.lit"), "screen": device(None, ""), "tracker": device(True, "tracker.streaming"),
                 "camera": device(None, ""), "panel": device(True, "panel.well"), "sound": device(True, "sound.well")}
     return all_well | changes
@@ -104,7 +104,7 @@ class Status(unittest.TestCase):
             capture_output=True, timeout=60, check=False, env={**os.environ, "TZ": "UTC", "LC_ALL": "C.UTF-8"})
 
     def sensor(self, path, **files):
-        """A folder of the kernel's below sys, in the test's own root."""
+        """Makes a folder like the kernel's below sys, in the test's own root."""
         folder = self.folder / "root/sys/class" / path
         folder.mkdir(parents=True)
         for name, content in files.items():
@@ -225,7 +225,7 @@ class Text(Status):
             self.write("dog.json", watchdog(**changes))
             self.assertIn(words, self.text(1).split("\n")[0])
         self.write("dog.json", watchdog(trouble=trouble, monotonic_ns=time.monotonic_ns() - 10**12))
-        self.assertIn("runs and is well", self.text(0))  # what it said long ago is no complaint of now
+        self.assertIn("runs and is well", self.text(0))  # an old complaint does not count
 
     def test_devices_of_the_settings_that_are_missing(self):
         self.write("status.json", exhibit(**NO_TRACKER))
@@ -483,7 +483,7 @@ class Prometheus(Status):
 
 
 class Screenshot(Status):
-    """The asking side, against an exhibit that answers what it should not; tests/programs has the real one."""
+    """The client, with an exhibit that gives wrong answers; tests/programs tests it with a real exhibit."""
 
     def answered(self, answer):
         listening = socket.socket(socket.AF_UNIX)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what a kiosk has of the build folder $1 into a new root and checks its units, users, folders and
-# udev rules with systemd's own tools. Exit status 77: a tool is missing, and its check was left out.
+# Installs a kiosk's files from the build folder $1 into a new root, and checks units, users, folders and udev
+# rules with systemd's own tools. Exit status 77: a tool is missing, and its check was left out.
 set -euo pipefail
 build=$1
 
@@ -41,7 +41,8 @@ echo '# the museum'"'"'s own' >"$root$settings"
 install_kiosk
 grep -q "museum's own" "$root$settings" || die "a museum's own settings were overwritten"
 
-# Both open the camera, as their user, who is in the group video (below): no list of devices stands before it, nor another group.
+# Both services open the camera, with the rights of their user, who is in the group video (checked below). So no list of devices may exclude
+# it, and no other group may be set.
 for name in frustumscreen frustumscreen-calibrate; do
     grep -q '^User=frustumscreen$' "$units/$name.service" || die "$name.service runs as another user than the one in the group video"
     shut=$(cat "$units/$name.service" "$units/$name.service.d"/*.conf "$own/systemd/system/$name.service.d"/*.conf 2>/dev/null |
@@ -53,7 +54,7 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     cp --no-clobber --recursive /usr/lib/systemd/system/. "$units" # the targets that it depends on
     install -D -m 755 /bin/sh "$root/bin/sh" # Debian's own, which a unit calls
     said=$(systemd-analyze verify --root="$root" "$unit" 2>&1) || die "systemd-analyze verify: $said"
-    # For a key that it does not know the tool only prints a warning.
+    # For an unknown key the tool only prints a warning.
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts"
     locked_in() { # UNIT TENTHS: the exposure is no larger
         systemd-analyze security --no-pager --offline=true --threshold="$2" --root="$root" "$1" >"$root/security" ||
@@ -71,7 +72,7 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the watchdog"
     locked_in frustumscreen-watchdog.service 4
     locked_in frustumscreen-step@reboot.service 11
-    # The units of sticks, for a stick that is stick1p1; what they start is there, their sandbox too.
+    # The units of sticks, for the stick stick1p1; the programs that they start and their sandbox exist.
     for name in stick ntfs import import-refused; do
         instance=$units/frustumscreen-$name@stick1p1.service
         cp "$units/frustumscreen-$name@.service" "$instance"
@@ -137,7 +138,7 @@ else
     skip "systemd-sysusers or systemd-tmpfiles is not installed"
 fi
 
-# udev's grammar: KEY or KEY{attribute}, an operator, a text in quotes; commas between.
+# udev's grammar: KEY or KEY{attribute}, an operator, a text in quotes; separated by commas.
 rules=("$root"/usr/lib/udev/rules.d/*-frustumscreen*.rules)
 pair='[A-Z]+(\{[^}"]+\})?(==|!=|=|\+=|-=|:=)"(\\"|[^"])*"'
 wrong=$(grep -Evn "^(#.*|)$|^$pair(, *$pair)*$" "${rules[@]}") && die "no udev rule: $wrong"

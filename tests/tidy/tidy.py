@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""clang-tidy over the C++ files; `./test tidy` calls this.
+"""Runs clang-tidy over the C++ files; `./test tidy` calls this.
 
-Sources that compile together are analysed together. What was clean is not analysed again while its preprocessed text, the checks and
-clang-tidy are the same; the user's cache folder remembers it for all clones. Exit status 1: something was found.
+Sources that compile as one file are analysed as one file. A file without findings is not analysed again as long as its preprocessed text,
+the checks and clang-tidy stay the same; a record in the user's cache folder serves all clones. Exit status 1: there are findings.
 """
 
 import argparse
@@ -23,7 +23,7 @@ COMMITS = 20  # the change that --changed looks at
 MAX_INCLUDERS = 20  # of a changed header, with --changed
 # Left out in tests: their pictures are too small to overflow an int, and the cell k of a grid is (k % columns, k / columns).
 NOT_IN_TESTS = "-bugprone-integer-division,-bugprone-misplaced-widening-cast"
-PROGRESS = 50  # files between two lines that say how far it is
+PROGRESS = 50  # files between two lines of progress
 
 
 def output_of(*command):
@@ -31,7 +31,7 @@ def output_of(*command):
 
 
 def units(build):
-    """Compiled files, as file -> its command; and source -> a compiled file that is or includes it. No generated files."""
+    """Two maps, without generated files: compiled file -> its command; source -> the compiled file that is or includes it."""
     commands, unit_of = {}, {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         file = pathlib.Path(entry["file"])
@@ -47,7 +47,7 @@ def units(build):
 
 
 def touched(files):
-    """The sources that the last commits and the working tree change, and of each changed header some that include it."""
+    """The sources that the last commits and the working tree change, and for each changed header some sources that include it."""
     base = output_of("git", "rev-list", f"--max-count={COMMITS + 1}", "HEAD").split()[-1]
     changed = {ROOT / name for name in output_of("git", "diff", "--name-only", "--diff-filter=d", base).splitlines()}
     names = output_of("git", "grep", "--extended-regexp", r'^#include "', "--", "*.cpp").splitlines()
@@ -74,7 +74,7 @@ class Analysis:
         self._salt = checks + output_of(TOOL, "--version").encode()
 
     def _key(self, file):
-        """The hash of what is analysed: the preprocessed text without comments and line numbers."""
+        """The hash of checks, clang-tidy's version and the preprocessed text, without comments and line numbers."""
         words = shlex.split(self._commands[file]["command"])
         compiler = next(k for k, word in enumerate(words) if re.search(r"(\+\+|cc)(-\d+)?$", word))
         end = words.index("-o")
@@ -83,7 +83,7 @@ class Analysis:
         return hashlib.sha256(salt + text.replace(os.fsencode(ROOT), b"")).hexdigest()
 
     def run(self, file):
-        """clang-tidy's findings in a file; empty: none. None: it was clean before."""
+        """clang-tidy's findings in a file; empty if there are none; None if an earlier analysis of the same text had none."""
         clean = CACHE / self._key(file)
         if clean.exists():
             return None
@@ -98,8 +98,8 @@ class Analysis:
 
 def main():
     parser = argparse.ArgumentParser(prog="./test tidy", description=__doc__)
-    parser.add_argument("--changed", action="store_true", help=f"only what the last {COMMITS} commits and the working tree touch")
-    parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="files at a time; as many as processors, if not given")
+    parser.add_argument("--changed", action="store_true", help=f"only files that the last {COMMITS} commits and the working tree change")
+    parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="files at a time (default: the number of processors)")
     parser.add_argument("files", metavar="FILE", nargs="*", type=pathlib.Path, help="only these")
     arguments = parser.parse_args()
 
@@ -117,7 +117,7 @@ def main():
         for number, found in enumerate(pool.map(analysis.run, files), 1):
             known += found is None
             for finding in re.split(r"\n(?=/\S+:\d+:\d+: )", (found or "").strip()):
-                if finding and finding not in said:  # one in a header is found by each of its includers
+                if finding and finding not in said:  # each file that includes a header repeats its findings
                     said.add(finding)
                     print(finding, flush=True)
             if number % PROGRESS == 0:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The watchdog's program beside a kiosk made of files: it is small, feeds its service manager, and orders the steps in turn.
+"""Tests the watchdog's program on a kiosk that is simulated by files: it is small, feeds its service manager, and orders the steps in turn.
 
     watchdog_program.py PROGRAM
 """

@@ -1,8 +1,8 @@
-"""Curves and springs of app/world against SciPy: Slerp, CubicHermiteSpline, and the exponential of the spring's matrix.
+"""Tests curves and springs of app/world against SciPy: Slerp, CubicHermiteSpline, and the exponential of the spring's matrix.
 
     world_values.py PROGRAM
 
-PROGRAM is tests/world/world_values.cpp. The numbers that it gets are those that a float has, so both sides read the same curve.
+PROGRAM is tests/world/world_values.cpp, compiled. All input numbers are exact as 32-bit floats, so both sides read the same curve.
 """
 
 import subprocess
@@ -79,7 +79,7 @@ class Curves(unittest.TestCase):
         random = np.random.default_rng(3)
         for _ in range(30):
             times = key_times(random, random.integers(2, 9))
-            # A Hermite spline of SciPy has one slope at a key, so each interval, which has two of its own, is one spline.
+            # A Hermite spline of SciPy has one slope at a key. Each interval has two slopes of its own, so it becomes a spline of its own.
             values = floats(random.normal(size=(len(times), 3, 4)))
             for k in range(len(times) - 1):
                 spline = CubicHermiteSpline(times[k:k + 2], [values[k, 1], values[k + 1, 1]], [values[k, 2], values[k + 1, 0]])

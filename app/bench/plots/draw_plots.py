@@ -4,8 +4,8 @@
 usage: draw_plots.py TABLE.csv...
        draw_plots.py --overall OUT.svg FOLDER...    error_time.csv of several artifacts on one sheet
 
-The bench calls it; the name of a table says what it is. A table gives the same bytes each time. Exit status 1
-and one line on standard error where something is missing or broken.
+The bench calls it. The name of a table determines its plot; equal tables give equal bytes. Exit status 1
+and one line on standard error if something is missing or broken.
 """
 import csv
 import json
@@ -22,12 +22,12 @@ from panels import Failure, Panel, Series, save_column, save_sheet
 
 COST = "median frame time / that of the floor"
 FAINT = 0.3
-LONGEST_TITLE = 40  # letters of an artifact's, over a panel
+LONGEST_TITLE = 40  # of an artifact, letters
 WORST_POSE_COLOUR = 6
 
 
 class Family:
-    """The techniques that share a line; colour, mark and width are the same in every plot."""
+    """Techniques that one line joins; the line's colour, mark and width are the same in every plot."""
 
     def __init__(self, name, colour, mark, width=1.5):
         self.name = name
@@ -45,7 +45,7 @@ FAMILIES = {  # by the tables' column `kind`
     "relief": Family("relief images", 7, "D"),
     "ray cast": Family("ray cast (reference)", 4, "x"),
 }
-# Title, the axis's label, the column of mean and worst, the axis's least: no visitor sees less; the limit's column.
+# Title; label of the axis; column of mean and worst; lower end of the axis, below which no visitor sees an error; column of the limit.
 ERRORS = (
     ("Silhouette error", "% of the artifact's pixels", "silhouette_percent", 0.01, "silhouette_percent"),
     ("Geometric error", "mean distance, mm", "geometric_mean_mm", 0.001, "geometric_mean_mm"),
@@ -66,7 +66,7 @@ def read_table(path):
 
 
 def different(values):
-    """Each once, in the order of their first place."""
+    """The distinct values, in the order of their first occurrence."""
     return list(dict.fromkeys(values))
 
 
@@ -74,7 +74,7 @@ def different(values):
 
 
 def pareto_front(points):
-    """Those that no other one is left of and below, by ascending cost; of equal ones the first."""
+    """The Pareto-optimal points (less cost and less error are better), by ascending cost; of equal points, the first."""
     front = []
     for point in sorted(points, key=lambda point: point[:2]):
         if not front or point[1] < front[-1][1]:
@@ -83,9 +83,9 @@ def pareto_front(points):
 
 
 def median_attainment(artifacts):
-    """Where it changes, the least error that at least half of the artifacts reach at no more than that cost.
+    """(cost, error) wherever the least error changes that at least half of the artifacts reach at no more than that cost.
 
-    One list of (cost, error) each artifact; an empty one reaches nothing. Source: Grunert da Fonseca, Fonseca &
+    `artifacts` has a list of (cost, error) for each artifact; an empty list reaches nothing. Source: Grunert da Fonseca, Fonseca &
     Hall 2001, 'Inferential performance assessment of stochastic optimisers and the attainment function'.
     """
     median = []
@@ -109,7 +109,7 @@ def points_of(rows, kind, column):
 
 
 def family_series(rows, kind, error):
-    """The family's front as a line; beside it, what is not on the front."""
+    """The family's front as a line, and its other points as faint marks."""
     family = FAMILIES[kind]
     points = points_of(rows, kind, f"mean_{error}")
     front = pareto_front(points)
@@ -308,7 +308,7 @@ def draw_mixed(path):
 
 
 def draw_mixed_frames(path):
-    """As Kim 2008, Fig. 9: the frame rate over the walk; below it the popping."""
+    """The frame rate over the walk, as Kim 2008, Fig. 9, and below it the popping."""
     rows = read_table(path)
     panels = []
     budgets = different(row["budget_us"] for row in rows)

@@ -24,7 +24,7 @@ def times_alone(rows, triangles, technique):
 
 
 def window_cost(rows, triangles, technique):
-    """Milliseconds of one window more."""
+    """Milliseconds that one more window costs."""
     own = {int(row["windows"]): float(row["ms_p50"]) for row in rows
            if row["triangles"] == triangles and row["technique"] == technique}
     most = max(own)
@@ -75,7 +75,7 @@ def draw_ldi(path, rows):
 
 
 def draw_ldi_error(path, rows):
-    """Over the window's pixels: the mean of all patches."""
+    """The error over the number of pixels along the window's side: the mean of all patches."""
     panels = []
     for column, words in (("silhouette_pct", "silhouette, %"), ("error_mm_mean", "mean distance, mm"),
                           ("rmse", "RMSE, 8-bit codes")):

@@ -20,12 +20,12 @@ try:
 except ImportError:
     sys.exit("no plots: Debian's package python3-matplotlib is missing; the tables are written")
 
-# Dark enough on white, and told apart with any colour vision (Okabe & Ito 2008, darkened).
+# Dark on white, and distinct for every kind of colour vision (Okabe & Ito 2008, darkened).
 COLOURS = ("#00507f", "#b34700", "#00694d", "#8a3d6d", "#1f1f1f", "#7a6200", "#2f7fb0", "#d0308f")
 LIMIT_COLOUR = "#a00000"
-WIDER_FONT = 1.15  # words are text in the file; another font may need so much more room
+WIDER_FONT = 1.15  # the file has words as text; a reader's font may be this much wider
 LEGEND_GAP = 12
-NOTE_LETTER = 7.0  # points, of a note's letter at most, on average
+NOTE_LETTER = 7.0  # width of a note's letter, an upper bound of the average, points
 DOT = 72  # dots an inch, so that a pixel of the canvas is a point of the file
 matplotlib.rcParams.update({
     "svg.hashsalt": "frustumscreen", "svg.fonttype": "none", "figure.dpi": DOT, "savefig.dpi": DOT,
@@ -45,14 +45,14 @@ class Failure(Exception):
 class Series:
     name: str
     points: list  # (x, y) or (x, y, label)
-    colour: int = 0  # of COLOURS
+    colour: int = 0  # index in COLOURS
     mark: str = "o"  # matplotlib's marker, or 'ring'
     width: float = 1.5  # of the line, points
     joined: bool = True  # by a line, in order
     dashed: bool = False
     stepped: bool = False  # the line keeps its y until the next point's x
     opacity: float = 1.0  # of the marks
-    in_legend: bool = True  # no: it goes with another series
+    in_legend: bool = True  # False: it belongs to another series
 
 
 @dataclass
@@ -61,10 +61,10 @@ class Panel:
     x_label: str
     y_label: str
     series: list = field(default_factory=list)
-    limits: list = field(default_factory=list)  # (y, label): a horizontal line to hold
+    limits: list = field(default_factory=list)  # (y, label): a horizontal line that values should not pass
     log: bool = True  # both axes
     corner: str = ""  # words in the lower left corner
-    y_least: float = 0.0  # above 0: the axis goes no lower; what lies below is drawn there
+    y_least: float = 0.0  # if above 0, the lower end of the axis; points below it are drawn at that end
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ ON_SHEET = Frame(520, 430, 72, 18)
 
 
 def number(value):
-    """As it is written beside a tick."""
+    """The text of a number beside a tick."""
     for least, size, unit in ((1e6, 1e6, "M"), (1e4, 1e3, "k")):
         if abs(value) >= least:
             return f"{value / size:g}{unit}"
@@ -104,7 +104,7 @@ def shown(series, panel):
 
 
 def log_ticks(decades):
-    """At least three ticks over any range."""
+    """A locator that gives at least three ticks over any range."""
     if decades < 0.5:
         return MaxNLocator(6, steps=(1, 2, 2.5, 5, 10))
     digits = (1, 1.5, 2, 3, 4, 5, 6, 8) if decades < 0.9 else (1, 2, 5) if decades < 3.2 else (1,)
@@ -112,7 +112,7 @@ def log_ticks(decades):
 
 
 def settle(axis, values, log, least):
-    """The ends of an axis, its ticks and their words; some room beyond the values."""
+    """Sets the ticks of an axis and their texts, and returns the ends of the axis, a little beyond the values."""
     low, high = (min(values), max(values)) if values else (1.0, 10.0)
     if log:
         low, high = math.log10(low), math.log10(high)
@@ -195,7 +195,7 @@ class Drawing:
                 self.keep_line_clear(corner, end)
 
     def draw_limit(self, y, words):
-        """The words stand over the line, at the end where they hide less."""
+        """Puts the words over the line, at the place where they hide the least."""
         self.axes.axhline(y, color=LIMIT_COLOUR, linestyle=(0, (6, 4)), linewidth=1.0, zorder=2,
                           gid=f"{self.name}/{words}")
         best = None
@@ -284,7 +284,7 @@ def new_figure(width, height):
 
 
 def save(path, figure):
-    """By rename: a file is whole or not there."""
+    """Writes the file by rename, so that it is whole or absent."""
     part = path.with_name(path.name + ".part")
     try:
         figure.savefig(part, format="svg", metadata={"Date": None, "Creator": None})

@@ -6,7 +6,7 @@ ROOM = {"ours": (0, "o", 2.5), "polygons": (5, "D", 1.5), "relief": (6, "^", 1.5
 
 
 def paper_limit(points):
-    """A line that is named in the legend: the others cross it."""
+    """The limit as a series with an entry in the legend, because curves would cross a label on the line."""
     ends = [point[0] for point in points]
     return Series("Kim 2008: 10 frames/s", [(min(ends), 10.0), (max(ends), 10.0)], 4, "", 1.0, dashed=True)
 
@@ -32,7 +32,7 @@ WALKS = {"paper": "Along the screen, as Kim 2008, Fig. 9", "visitor": "A visitor
 
 
 def draw_room_frames(path, rows):
-    """As Kim 2008, Fig. 9: the frame rate over each walk, the least of each technique marked."""
+    """The frame rate over each walk, as Kim 2008, Fig. 9; the lowest rate of each technique is marked."""
     panels = []
     for walk in dict.fromkeys(row["walk"] for row in rows):
         panel = Panel(WALKS[walk], "seconds", "frames a second of processor time", log=False)
@@ -50,7 +50,7 @@ def draw_room_frames(path, rows):
 
 
 def draw_room_paper(path, rows):
-    """Kim 2008's own experiment: what a machine of so many polygons a second shows."""
+    """The experiment of Kim 2008: error and frame rate on a machine that draws a given number of polygons a second."""
     panels = []
     for title, unit, column in (
             ("The paper's way at its 5,000 polygons a second, and at more", "mean distance, mm", "error_mm_mean"),

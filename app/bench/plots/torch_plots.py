@@ -19,7 +19,7 @@ def different(values):
 
 
 def draw_torch(path, rows):
-    """Cost over error; a frame without a torch is 1."""
+    """Error over cost, in units of a frame without a torch."""
     panels = []
     for scene in different(row["scene"] for row in rows):
         own = [row for row in rows if row["scene"] == scene]
@@ -39,8 +39,8 @@ def tens(values):
 
 
 def draw_torch_frames(path, rows):
-    """As the paper's Fig. 4: the frame rate in groups of ten frames, of a steered and of a fixed tolerance, equal on average.
-    Spread: the quickest group's rate over the slowest one's."""
+    """The mean frame rate of each ten frames, as the paper's Fig. 4: with a steered and with a fixed tolerance, equal on average.
+    Spread: the rate of the fastest ten frames, divided by that of the slowest."""
     panels = []
     for scene in different(row["scene"] for row in rows):
         of_scene = [row for row in rows if row["scene"] == scene]
@@ -72,10 +72,10 @@ def draw_torch_wall(path, rows):
     save_sheet(path.with_suffix(".svg"), "Splitting by edge length and by the bound of the error", panels, 2, [])
 
 
-SIZE = 300  # of a wall's picture, pixels
-EXTENT = 0.6  # of its half width, metres
-MIDDLE = 0.12  # of the picture, to the right of the wall's, metres
-PANEL, GAP, ABOVE = 300, 16, 76  # of the figure, pixels
+SIZE = 300  # side of a wall's picture, pixels
+EXTENT = 0.6  # half of that side on the wall, metres
+MIDDLE = 0.12  # x of the picture's middle on the wall, metres
+PANEL, GAP, ABOVE = 300, 16, 76  # sizes in the figure, pixels
 
 
 def wall_picture(triangles):
@@ -97,7 +97,7 @@ def wall_picture(triangles):
 
 
 def draw_wall(axes, triangles):
-    """Edges are whole where the light is, faint outside."""
+    """Draws the light, and the triangles' edges: opaque inside the beam, faint outside."""
     light, in_beam = wall_picture(triangles)
     frame = (MIDDLE - EXTENT, MIDDLE + EXTENT, -EXTENT, EXTENT)
     axes.imshow(light, cmap="gray", vmin=0, vmax=1, extent=frame, interpolation="nearest")
@@ -116,7 +116,7 @@ def draw_wall(axes, triangles):
 
 
 def draw_torch_triangles(path, rows):
-    """As the paper's Fig. 3: the light, and the triangles' edges in red."""
+    """The light, and the triangles' edges in red, as the paper's Fig. 3."""
     panels = different((row["heuristic"], row["tolerance"]) for row in rows)
     width, height = len(panels) * (PANEL + GAP) + GAP, PANEL + ABOVE + 20
     figure = new_figure(width, height)

@@ -1,4 +1,4 @@
-"""Finds what stands where in a plot's SVG, without the code that drew it."""
+"""Finds marks, lines and texts in a plot's SVG, without the code that drew it."""
 import re
 from xml.etree import ElementTree
 

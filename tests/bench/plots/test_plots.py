@@ -1,4 +1,4 @@
-"""Tests the plots with made-up tables: what is read back from the SVG stands where the tables say."""
+"""Tests the plots with artificial tables: marks and lines that are read back from the SVG lie where the tables say."""
 import csv
 import json
 import math
@@ -18,8 +18,8 @@ from draw_plots import main, median_attainment, pareto_front  # noqa: E402
 from panels import Failure, Panel, Series, save_column, save_sheet  # noqa: E402
 from svg import Svg  # noqa: E402
 
-# Three levels of a pack and three simplified meshes, the middle one dearer and worse than the first; of the
-# two-pass pictures the second one is better than the first.
+# Three levels of a pack and three simplified meshes, the middle one of higher cost and error than the first; the second
+# two-pass picture is better than the first.
 TECHNIQUES = (  # technique, kind, triangles, cost, error, best eye image
     ("floor", "floor", 0, 1.0, None, 1), ("mesh 0", "pack level", 1000, 2.0, 0.4, 1),
     ("mesh 1", "pack level", 2000, 3.0, 0.2, 1), ("mesh 2", "pack level", 3000, 5.0, 0.1, 1),
@@ -68,7 +68,7 @@ class Plots(unittest.TestCase):
         return Svg(path)
 
     def assert_at(self, svg, panel, series, points, log=True):
-        """The marks of a series stand where the ticks of the axes say that its points are."""
+        """The marks of a series lie at its points, measured by the ticks of the axes."""
         scaled = math.log10 if log else float
         places = svg.marks(f"panel{panel}/{series}")
         self.assertEqual(len(places), len(points), series)
@@ -221,7 +221,7 @@ class OtherTables(Plots):
         self.assertEqual(svg.texts().count("all of it"), 1)
 
     def setup_plot(self, *costs):
-        """A plot of the set-up as it is and two choices, with these costs of a frame."""
+        """A plot of the present set-up and two choices, with these costs of a frame."""
         rows = [{"choice": choice, "lens_height_m": height, "lens_side_m": side, "evenness": 0.3, "pixels": 900,
                  "reach_y_m": 0.04, "reference_light": 0.2, "frame_times_now": cost}
                 for (choice, height, side), cost in zip(

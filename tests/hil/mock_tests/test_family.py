@@ -31,7 +31,7 @@ def work():
     start()
     def wait_for_it():
         program = subprocess.Popen(["sleep", "1003"])
-        print("ready", flush=True)  # only now: a process that starts while all are ended would be waited for
+        print("ready", flush=True)  # after the start, because the test would wait for a process that starts while all are ended
         program.wait()
     ThreadPoolExecutor().submit(wait_for_it).result()
 """
@@ -52,7 +52,7 @@ SOON_S = 20.0
 
 
 def sleepers(family):
-    """The processes whose environment says that they belong to the family."""
+    """The processes that belong to the family, by a variable of their environment."""
     mark = f"HIL_FAMILY={family}".encode()
     found = []
     for folder in pathlib.Path("/proc").glob("[0-9]*"):

@@ -1,4 +1,4 @@
-"""Tests what the watch calls a freeze, with made-up looks: no machine, no clock."""
+"""Tests the definition of a freeze in watch.py, with artificial looks: no machine, no clock."""
 
 import unittest
 
@@ -9,7 +9,7 @@ STEP_S = 0.05
 
 
 def looks(pictures, pause_at_s=None, pause_s=0.0):
-    """`pictures`: (code, seconds that it stands); the guest always rests; the host stands still once."""
+    """`pictures`: (code, seconds for which it stands). The guest always rests; the host stops once."""
     made, now_s, end_s = [], 0.0, 0.0
     for code, stands_s in pictures:
         end_s += stands_s

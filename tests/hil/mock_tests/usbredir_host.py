@@ -1,4 +1,4 @@
-"""A host at the other end of a mock's usbredir link, and the simplest device."""
+"""A host for the other end of a mock's usbredir link, and a minimal device."""
 
 import asyncio
 import os

@@ -10,12 +10,12 @@ HELP = f"""\
 press PIN [DURATION]   down, and up again after it (200 ms); pins are 0 to {PINS - 1}
 hold PIN               down until 'release PIN'
 release PIN
-bounce PIN [DURATION]  a press whose contacts bounce: a burst of edges when it goes down and when it comes up
+bounce PIN [DURATION]  a press whose contacts bounce: bursts of edges when the button goes down and when it comes up
 special PIN            the special function of pin 0, 1 or 7 is on, and it is no GPIO, until 'special off' or 'unplug'
 unplug [DURATION]      the USB cable is out; 'plug' puts it back
 plug
-status                 pins, lamps, how often the host read
-help                   this"""
+status                 pins, lamps, how often the host has read the pins
+help                   this text"""
 
 _USUAL_PRESS_S = 0.2
 _BOUNCE_S = 0.003  # between two edges of a bouncing contact

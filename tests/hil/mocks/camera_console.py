@@ -10,12 +10,12 @@ from .uvc_camera import KINDS
 class CameraConsole(FaultConsole):
     kinds = KINDS
     commands = """\
-play FILE                         sends this picture (PGM of 160 x 120 or 320 x 240 pixels) with a little noise, where its size was
-                                  agreed on; FILE is read once, now
+play FILE                         sends this picture (PGM of 160 x 120 or 320 x 240 pixels) with a little noise, if its size is the
+                                  negotiated one; FILE is read once, now
 play off                          sends the test picture again
 good                              ends every fault
-status                            what was agreed on, frames, the controls' values
-help                              this"""
+status                            the negotiated format, frames, the controls' values
+help                              this text"""
 
     def answer(self, name, words):
         if name != "play" or not words:

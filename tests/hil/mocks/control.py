@@ -32,7 +32,7 @@ async def serve(path, execute):
 
 
 def tell(path, line, timeout_s=10.0):
-    """For other programs: sends one command and returns the answer as a dict."""
+    """Sends one command to a mock's socket and returns the answer as a dict; for other programs."""
     with socket.socket(socket.AF_UNIX) as connection:
         connection.settimeout(timeout_s)
         connection.connect(path)

@@ -2,7 +2,7 @@
 
 Reports (Silicon Labs AN495), the number first: 0x02 pin directions and modes, 0x03 pins read, 0x04 pins written, 0x05
 part and version, 0x06 SMBus settings, 0x20 strings that may still be written. No SMBus device answers. Pins 0, 1 and 7
-have a special function; while it is on, they are no GPIO. Like all of 0x02 it is in RAM, and off after a start.
+have a special function; while it is on, they are no GPIO. Like all settings of 0x02 it is in RAM, and off after a start.
 """
 
 from .usb_device import IN, INTERRUPT, Endpoint, UsbDevice
@@ -62,7 +62,7 @@ class Cp2112(UsbDevice):
         return sum(1 << pin for pin, bit in SPECIAL.items() if self.special_bits() & bit)
 
     def pins(self):
-        """One bit for each pin: inputs are pulled up and buttons pull them down, outputs are as they were written."""
+        """One bit for each pin: inputs are pulled up, and buttons pull them down; outputs have the levels that were written."""
         outputs = self._features[_DIRECTIONS][0]
         gpio = (self.lamps & outputs) | (~self._pressed & ~outputs & 0xFF)
         return gpio | self.special_pins()

@@ -1,4 +1,4 @@
-"""CRC-16/ARC: reflected polynomial 0xA001, begins with 0; of b"123456789" it is 0xBB3D."""
+"""CRC-16/ARC: reflected polynomial 0xA001, initial value 0; the CRC of b"123456789" is 0xBB3D."""
 
 
 def _table():

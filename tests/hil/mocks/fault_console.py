@@ -1,15 +1,15 @@
-"""The common part of consoles of mocked devices with faults: a fault begins by its name, for a while or until it is ended."""
+"""The common part of consoles of mocked devices with faults: a command names a fault, which lasts for a duration or until it is ended."""
 
 import asyncio
 import time
 
 
 class FaultConsole:
-    """Subclasses say which faults there are, `kinds`, what else is understood, and what a fault's beginning and end do."""
+    """Subclasses define the faults (`kinds`), further commands, and the actions at a fault's beginning and end."""
 
     kinds = {}
     commands = ""  # help for unknown faults
-    ended_by_time = ("unplug", "hang")  # of the others nothing is done at their end
+    ended_by_time = ("unplug", "hang")  # faults that need an action when their duration ends
 
     def __init__(self, device):
         self._device = device

@@ -14,7 +14,7 @@ _PROBABILITY = (0.0, 1.0)
 
 
 class Kind(NamedTuple):
-    """usual: the value if none is given; None: the fault has no value. allowed: the least and the most."""
+    """usual: the value if none is given; None: the fault has no value. allowed: (minimum, maximum)."""
 
     usual: float | None
     allowed: tuple | None
@@ -27,26 +27,26 @@ KINDS = {
     "duplicate": Kind(0.1, _PROBABILITY, "each frame is sent twice with this probability"),
     "reorder": Kind(0.1, _PROBABILITY, "each frame comes after its successor with this probability"),
     "stall": Kind(None, None, "no frames; commands are still answered"),
-    "hang": Kind(None, None, "nothing goes in or out, though the device stays connected"),
+    "hang": Kind(None, None, "sends and accepts nothing, though it stays connected"),
     "hang-until-reset": Kind(None, None, "as hang; a reset of its USB port, or switching it off, ends it"),
-    "nan": Kind(None, None, "positions that are no numbers"),
-    "wrong-units": Kind(None, None, "inches, whatever it is told"),
+    "nan": Kind(None, None, "positions that are not numbers"),
+    "wrong-units": Kind(None, None, "inches, whatever it is set to"),
     "filter-stays": Kind(None, None, "a VIPER's filters stay on, whatever it is told"),
     "nak": Kind(None, None, "commands are refused"),
     "warn": Kind(None, None, "a VIPER does what it is told and answers with a warning"),
     "nak-questions": Kind(None, None, "a VIPER refuses to say how it is set"),
     "built-in-test": Kind(3, (1, 15), "the device's own test has found this fault"),
-    "slow-boot": Kind(None, None, "starts anew: forgets its settings and says that it is still booting"),
-    "unplug": Kind(None, None, "the USB cable is out; plugged in again it starts anew"),
+    "slow-boot": Kind(None, None, "restarts: loses its settings and reports that it is still booting"),
+    "unplug": Kind(None, None, "the USB cable is out; plugged in again, it restarts"),
     "sensor-missing": Kind(1, (1, 16), "the sensor of this station is not plugged in"),
-    "rate": Kind(30, (0.5, 8000), "so many frames a second, whatever it says; a VIPER's clock goes with them"),
-    "clock-stands": Kind(None, None, "its time stamps stand still; a VIPER has none but its counter"),
-    "replug": Kind(10, (0.1, 50), "the cable goes out and in so often a second"),
-    "burst": Kind(64, (1, 1024), "four times a second the latest frame again and again, so many KiB at once"),
-    "false-preambles": Kind(None, None, "noise before each frame, that begins as one and lies about its size"),
+    "rate": Kind(30, (0.5, 8000), "so many frames a second, whatever rate it reports; a VIPER's clock keeps pace with them"),
+    "clock-stands": Kind(None, None, "its time stamps stand still; a VIPER has only its counter"),
+    "replug": Kind(10, (0.1, 50), "the cable goes out and in so many times a second"),
+    "burst": Kind(64, (1, 1024), "four times a second repeats the latest frame, so many KiB at once"),
+    "false-preambles": Kind(None, None, "noise before each frame, which begins like a frame with a false size"),
     "no-endpoints": Kind(None, None, "its descriptors name no endpoint"),
-    "absurd-endpoints": Kind(None, None, "its descriptors name endpoints of every kind and size, none as it should be"),
-    "absurd-lengths": Kind(None, None, "its descriptors lie about their lengths"),
+    "absurd-endpoints": Kind(None, None, "its descriptors name endpoints of every kind and size, all of them wrong"),
+    "absurd-lengths": Kind(None, None, "its descriptors have false lengths"),
     "wrong-configuration": Kind(None, None, "it refuses the only configuration that its descriptors name"),
     "distortion": Kind(200, (0, 255), "the device says that its field is distorted by metal"),
 }
@@ -59,7 +59,7 @@ def parse_duration(text):
 
 
 class Faults:
-    """`kinds`: those of this device; a tracker's unless said."""
+    """`kinds`: the faults of this device; a tracker's by default."""
 
     def __init__(self, seed=1, clock=time.monotonic, kinds=None):
         self._kinds = KINDS if kinds is None else kinds
@@ -68,7 +68,7 @@ class Faults:
         self._active = {}  # name -> (value, end or None)
 
     def tell(self, name, words):
-        """Begins or ends a fault; returns its duration in seconds, None: until it is ended. Errors: ValueError."""
+        """Begins or ends a fault; returns its duration in seconds, or None if it lasts until it is ended. Errors: ValueError."""
         kind = self._kinds[name]
         if words == ["off"]:
             self._active.pop(name, None)
@@ -106,7 +106,7 @@ class Faults:
         return self._active[name][0] if self.on(name) else None
 
     def strikes(self, name):
-        """Whether the fault hits this frame; uses up seeded random numbers only while the fault is on."""
+        """Whether the fault affects this frame; uses seeded random numbers only while the fault is on."""
         return self.on(name) and self.random.random() < self._active[name][0]
 
     def active(self):
@@ -119,14 +119,14 @@ class Frame(NamedTuple):
     data: bytes
     poses: dict  # station -> table_from_sensor or None
     intact: bool = True
-    sequence: int = 0  # frames that a host counts together; a late one comes after its successor of the same sequence
+    sequence: int = 0  # which of the host's counters counts it; a late frame comes after its successor of the same sequence
 
 
 class FramePath:
     """The path of frames to the host, on which some are lost, broken, doubled or late."""
 
     def __init__(self, faults, break_bytes):
-        """`break_bytes(data, random)` breaks one of this device's frames so that a host can notice."""
+        """`break_bytes(data, random)` breaks a frame of this device so that a host can notice it."""
         self._faults = faults
         self._break_bytes = break_bytes
         self._held = {}  # by sequence

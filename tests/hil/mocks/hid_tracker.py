@@ -51,7 +51,7 @@ class HidTracker(Tracker):
 
     def __init__(self, *args, **kwargs):
         super().__init__(*args, **kwargs)
-        self.streaming = True  # without being asked, as soon as it has power
+        self.streaming = True  # it streams without a command, as soon as it has power
 
     def start_anew(self):
         super().start_anew()
@@ -85,7 +85,7 @@ class HidTracker(Tracker):
             self.answer(report)
 
     def poses(self, now):
-        """A station whose sensor is missing still reports, like one without a pose."""
+        """A station without a sensor still reports, like a station without a pose."""
         missing = self.faults.value("sensor-missing")
         return {station: None if station == missing else pose for station, pose in self.player.poses(now).items()}
 

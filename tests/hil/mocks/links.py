@@ -25,13 +25,13 @@ def add_arguments(parser):
     group.add_argument("--vhci", action="store_true",
                        help="to this Linux machine itself; needs root, and 'modprobe vhci-hcd' before")
     group.add_argument("--socket", metavar="SOCKET",
-                       help="the bytes alone, at a Unix socket that is there while plugged in")
-    group.add_argument("--pty", action="store_true", help="the bytes alone, at a new pseudo-terminal")
-    group.add_argument("--stdio", action="store_true", help="the bytes alone, by standard input and output")
+                       help="only the bytes, at a Unix socket that exists while the device is plugged in")
+    group.add_argument("--pty", action="store_true", help="only the bytes, at a new pseudo-terminal")
+    group.add_argument("--stdio", action="store_true", help="only the bytes, by standard input and output")
 
 
 def chosen(arguments):
-    """The option that was given; None: none was."""
+    """The link's option that was given, or None."""
     return next((option for option in OPTIONS if getattr(arguments, option[2:])), None)
 
 

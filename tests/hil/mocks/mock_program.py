@@ -24,7 +24,7 @@ def add_arguments(parser):
     parser.add_argument("--at", metavar="'TIME COMMAND'", type=parse_at, action="append", default=[],
                         help="a command at a time after the start; may be given again")
     parser.add_argument("--tell", metavar=("SOCKET", "COMMAND"), nargs="+",
-                        help="tell a running mock something, and end")
+                        help="send a command to a running mock, and end")
 
 
 def parse_arguments(parser):
@@ -70,7 +70,7 @@ async def run(name, arguments, device, execute, life):
     except OSError as error:
         raise OSError(f"{links.chosen(arguments)}: {error.strerror or error}") from None
     if arguments.control:
-        await control.serve(arguments.control, execute)  # once this socket is there, the device is too
+        await control.serve(arguments.control, execute)  # when this socket exists, the device does too
     print(f"{name}: {where}", file=sys.stderr, flush=True)
     tasks = [asyncio.create_task(work) for work in (life(), link.ended(), stopped.wait())]
     done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)

@@ -1,7 +1,7 @@
 """A Polhemus PATRIOT or LIBERTY: commands and answers are text; frames of one sensor each are text or, after F1, binary.
 
-Frame: 'PA' or 'LY', u8 station, u8 command, u8 error (space: good), u8 0, u16 size of what follows; then the chosen
-fields, little-endian. The family has no checksum. It answers questions and errors, but no command that it accepts.
+Frame: 'PA' or 'LY', u8 station, u8 command, u8 error (space: good), u8 0, u16 size of the rest; then the chosen
+fields, little-endian. The family has no checksum. It answers questions and wrong commands, but not a command that it accepts.
 """
 
 import struct

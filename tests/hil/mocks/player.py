@@ -1,4 +1,4 @@
-"""Which pose each station has now: from a pose file, or where it was put by hand."""
+"""The present pose of each station: from a pose file, or set by a command."""
 
 from .pose import Pose
 
@@ -20,11 +20,11 @@ class Player:
         self._placed = {}
 
     def place(self, station, pose):
-        """Fixes the station at this pose, whatever the file has."""
+        """Fixes the station at this pose, regardless of the file."""
         self._placed[station] = pose
 
     def take_away(self, station):
-        """The station's sensor is no longer at the device, unless the file has it."""
+        """Removes the station's sensor from the device, unless the file has it."""
         self._placed.pop(station, None)
 
     def poses(self, now):

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class Pose(NamedTuple):
-    """`to_from`: maps coordinates of the sensor or prop into those of the table or tracker."""
+    """A transform named `to_from`: it maps coordinates of the sensor or prop into those of the table or tracker."""
 
     position: tuple = (0.0, 0.0, 0.0)
     quaternion: tuple = (1.0, 0.0, 0.0, 0.0)
@@ -86,7 +86,7 @@ def from_matrix(numbers):
 
 
 def euler_deg(quaternion):
-    """Azimuth, elevation, roll in degrees: turns about Z, then Y, then X."""
+    """Azimuth, elevation, roll in degrees: rotations about Z, then Y, then X."""
     w, x, y, z = quaternion
     azimuth = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
     elevation = math.asin(max(-1.0, min(1.0, 2 * (w * y - x * z))))

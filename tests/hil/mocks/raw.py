@@ -15,7 +15,7 @@ _CHUNK = 65536
 
 
 class RawLink:
-    """A pair of file descriptors; subclasses choose them and say what unplugging means."""
+    """A pair of file descriptors; subclasses choose them and define unplugging."""
 
     def __init__(self, device):
         self._device = device
@@ -70,7 +70,7 @@ class RawLink:
         self._unsent = self._held = b""
 
     def _hung_up(self):
-        """The other side has closed."""
+        """Called when the other side has closed the link."""
         self._detach()
         self._ended.set()
 
@@ -125,14 +125,14 @@ class StdioLink(RawLink):
 
 class PtyLink(RawLink):
     async def open(self):
-        controller, self._terminal = os.openpty()  # stays open here, so that others may come and go
+        controller, self._terminal = os.openpty()  # stays open here, so that other programs can open and close it
         tty.setraw(self._terminal)
         self._attach(controller, controller)
         return f"pseudo-terminal {os.ttyname(self._terminal)}"
 
 
 class SocketLink(RawLink):
-    """Listens at a Unix socket for one host at a time; there is no socket while it is unplugged."""
+    """Listens at a Unix socket for one host at a time; the socket does not exist while the device is unplugged."""
 
     def __init__(self, device, path):
         super().__init__(device)

@@ -1,9 +1,9 @@
 """The mocked camera's test picture: a grey ramp with noise, a bar that moves, and the frame's number in black and white blocks.
 
-Luma     codes 40 to 200 of a ramp from left to right, +-3 of noise that repeats after eight frames; so a hundredth of the pixels
-         is near 40, half are below 120, a hundredth near 200. Dark: 16 to 19. Blind: 255 with some noise.
+Luma     a ramp of codes 40 to 200 from left to right, with +-3 of noise that repeats after eight frames; so a hundredth of the pixels
+         are near 40, half are below 120, a hundredth near 200. Dark: 16 to 19. Blind: 255 with some noise.
 Number   in the first eight rows: sixteen blocks, the lowest bit at the left; black 16, white 235.
-JPEG     baseline (ITU-T T.81), grey, of DC coefficients alone: each block of 8 x 8 is its mean.
+JPEG     baseline (ITU-T T.81), grey, only DC coefficients: each block of 8 x 8 pixels has its mean.
 """
 
 import functools
@@ -12,7 +12,7 @@ import struct
 
 BITS, BLOCK = 16, 8
 BLACK, WHITE = 16, 235
-_KINDS = 8  # of noise
+_KINDS = 8  # pictures of noise, which take turns
 
 
 @functools.lru_cache(None)
@@ -58,9 +58,9 @@ def number_in(picture, width):
 
 
 def with_noise(picture, number):
-    """A luma picture, and on each pixel 0 to 3 codes of a sensor's noise; 252 is the brightest that a pixel can have without."""
+    """The luma picture, limited to 252, with 0 to 3 codes of a sensor's noise added to each pixel."""
     picture = bytes(picture).translate(_BELOW_NOISE)
-    # One sum of two long numbers: no byte carries over.
+    # The bytes are added as two long numbers, which is fast; no byte overflows into the next.
     total = int.from_bytes(picture, "little") + int.from_bytes(_noise(len(picture), number % _KINDS), "little")
     return total.to_bytes(len(picture), "little")
 
@@ -95,12 +95,12 @@ def jpeg(width, height, picture):
         rows = [picture[y * width:(y + 1) * width] for y in range(top, top + BLOCK)]
         for left in range(0, width, BLOCK):
             mean = sum(sum(row[left:left + BLOCK]) for row in rows) // BLOCK ** 2
-            value = mean - 128  # the coefficient is 8 times that, and the quantisation 8
+            value = mean - 128  # the DC coefficient is 8 times this value, and the quantisation step is 8
             step, before = value - before, value
             size = abs(step).bit_length()
             code, length = _codes()[size]
             bits = (bits << length | code) << size | (step if step >= 0 else step + (1 << size) - 1)
-            bits <<= 2  # the end of the block: the one AC code that the table below has, 00
+            bits <<= 2  # the end of the block: 00, the only code of the AC table below
             count += length + size + 2
     fill = -count % 8
     scan = (bits << fill | (1 << fill) - 1).to_bytes((count + fill) // 8, "big").replace(b"\xff", b"\xff\0")

@@ -1,4 +1,4 @@
-"""The common part of mocked trackers: they play poses at their own rate, and misbehave as they are told."""
+"""The common part of mocked trackers: they play poses at their own rate, with faults on command."""
 
 import asyncio
 import time
@@ -13,13 +13,13 @@ _ABSURD_ENDPOINTS = tuple(Endpoint(address, address % 4, 0xFFFF, 255)
                           if address % 4 != BULK)
 _SET_CONFIGURATION = (0, 9)
 _BURST_PERIOD_S = 0.25
-_IDLE_S = 0.05  # between two looks whether a host listens
-_LONGEST_CATCH_UP_S = 0.25  # what a device's own buffer holds; frames older than that are lost
+_IDLE_S = 0.05  # between two checks whether a host listens
+_LONGEST_CATCH_UP_S = 0.25  # length of a device's own buffer; frames older than that are lost
 
 
 class Tracker(UsbDevice):
     """A subclass has the wire format: `frames`, `received`, `rate_hz`, `break_bytes`, `false_start`; it sets `streaming`
-    as told."""
+    when its host starts or stops the stream."""
 
     name = "tracker"
 
@@ -32,7 +32,7 @@ class Tracker(UsbDevice):
         self.made = 0
         self.sent = 0
         self.commands = 0
-        self.last = None  # (t_ns, counter, {station: table_from_sensor or None}) of the last frame that was sent whole
+        self.last = None  # (t_ns, counter, {station: table_from_sensor or None}) of the last frame that was sent unbroken
         self.changed = None  # the same for the last frame whose poses differ from those before
         self._tracker_from_table = tracker_from_table
         self._path = FramePath(faults, self.break_bytes)
@@ -41,7 +41,7 @@ class Tracker(UsbDevice):
         self._burst_due = 0.0
         self._in = next((e.address for e in self.endpoints if e.address & IN), None)
 
-    # A subclass has these.
+    # A subclass defines these.
 
     rate_hz = 60.0
 
@@ -55,7 +55,7 @@ class Tracker(UsbDevice):
 
     @staticmethod
     def false_start(random_):
-        """Noise that begins like a frame, and in which a host cannot find a good one."""
+        """Noise that begins like a frame but contains no valid one."""
         raise NotImplementedError
 
     # For subclasses.
@@ -90,8 +90,8 @@ class Tracker(UsbDevice):
     # The life of the device.
 
     async def run(self):
-        """Sends one frame each period, for ever; after a delay the frames that are due follow at once. Looks less often while nobody
-        listens: a test's bench has trackers that are not plugged in."""
+        """Sends one frame each period, without end; after a delay the frames that are due follow at once. It checks less often while no
+        host listens, because a test's bench has trackers that are not plugged in."""
         due = time.monotonic()
         while True:
             rate_hz = self.faults.value("rate") or self.rate_hz
@@ -126,7 +126,7 @@ class Tracker(UsbDevice):
         count = int(self.faults.value("burst") * 1024) // len(data)
         if self.endpoints[0].kind == BULK:
             self.answer(data * count)
-        else:  # as many reports as the device keeps for a host
+        else:  # at most as many reports as the device keeps for a host
             for _ in range(min(count, self.most_waiting)):
                 self.answer(data)
 

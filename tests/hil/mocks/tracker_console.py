@@ -14,12 +14,12 @@ class TrackerConsole(FaultConsole):
     kinds = KINDS
     ended_by_time = ("unplug", "hang", "hang-until-reset")
     commands = """\
-pose X Y Z QW QX QY QZ [STATION]  the sensor is put there (table, metres); station 1 unless said
-away STATION                      its sensor is pulled off the device
-play FILE                         a pose file from its beginning
+pose X Y Z QW QX QY QZ [STATION]  puts the sensor there (table, metres); default: station 1
+away STATION                      unplugs the station's sensor from the device
+play FILE                         plays a pose file from its beginning
 good                              ends every fault
-status                            counters, settings, the last pose sent and when
-help                              this"""
+status                            counters, settings, the last pose that was sent and its time
+help                              this text"""
 
     def answer(self, name, words):
         if name == "pose":
@@ -75,7 +75,7 @@ help                              this"""
             tracker.lose_units()
 
     def _replug(self, goes_on, plugged=True):
-        """The cable is out for half of the time; at the end it is in."""
+        """Unplugs and plugs in the cable, each for half of a period; at the end it is plugged in."""
         tracker = self._device
         per_s = tracker.faults.value("replug") if goes_on else None
         if per_s is None:

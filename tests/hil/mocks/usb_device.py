@@ -39,7 +39,7 @@ class Request(NamedTuple):
 
 
 class UsbDevice:
-    """The common part of devices; subclasses add their own part, and those of several interfaces their descriptors."""
+    """The common part of devices; subclasses add their own part, and a subclass with several interfaces also their descriptors."""
 
     vendor_id = product_id = 0
     version_bcd = 0x0100
@@ -59,7 +59,7 @@ class UsbDevice:
 
     @property
     def interfaces(self):
-        """(number, class, subclass, protocol) of each."""
+        """(number, class, subclass, protocol) of each interface."""
         return ((0, *self.interface_class),)
 
     # For subclasses to override.
@@ -69,22 +69,22 @@ class UsbDevice:
         return 0
 
     def received(self, endpoint, data):
-        """The host sent bytes to an OUT endpoint."""
+        """Called when the host has sent bytes to an OUT endpoint."""
 
     def get_report(self, kind, number, length):
         """HID: the report's bytes, the number first; None refuses."""
 
     def set_report(self, kind, number, data):
-        """HID: whether the report is accepted."""
+        """HID: takes a report from the host; returns whether it is accepted."""
         return False
 
     def start_anew(self):
-        """As if switched off and on: all settings are lost."""
+        """Restarts the device as if it were switched off and on: all settings are lost."""
         for queue in self.waiting.values():
             queue.clear()
 
     def was_reset(self):
-        """The host has reset its port."""
+        """Called when the host has reset the device's port."""
 
     def greet(self):
         """On a link without endpoint 0: sends what a host would ask for when it opens the device."""
@@ -104,7 +104,7 @@ class UsbDevice:
     def take(self, endpoint, length):
         """At most `length` bytes for the host, or None.
 
-        An interrupt endpoint gives one report, a bulk endpoint all that waits, so that a slow host catches up.
+        An interrupt endpoint gives one report; a bulk endpoint gives all waiting bytes, so that a slow host catches up.
         """
         queue = self.waiting[endpoint]
         if not queue or self.hung:
@@ -203,7 +203,7 @@ class Transfers:
         self._writes.append((endpoint, identifier, data))
 
     def cancel(self, identifier):
-        """Returns the endpoint at which it waited; None: it is already done."""
+        """Cancels a transfer; returns the endpoint at which it waited, or None if it is already done."""
         for endpoint, queue in self._reads.items():
             for item in queue:
                 if item[0] == identifier:

@@ -1,6 +1,6 @@
 """Links to a Linux kernel's vhci_hcd: the server's side of USB/IP 1.1.1, over TCP or directly to this kernel.
 
-All numbers are big-endian except the eight set-up bytes, which are as on the bus.
+All numbers are big-endian, except the eight set-up bytes, which are in the bus's order.
 """
 
 import asyncio
@@ -22,7 +22,7 @@ _FREE_PORT = "004"
 
 
 def speed_number(device):
-    """The kernel's number: 1 low, 2 full, 3 high."""
+    """The kernel's number of the device's speed: 1 low, 2 full, 3 high."""
     return device.speed + 1
 
 

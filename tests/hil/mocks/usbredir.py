@@ -3,7 +3,7 @@
     -device qemu-xhci,id=xhci
     -chardev socket,id=tracker,path=SOCKET,reconnect=1 -device usb-redir,chardev=tracker
 
-All numbers are little-endian. Header: u32 type, u32 length of what follows, u32 or u64 identifier.
+All numbers are little-endian. Header: u32 type, u32 length of the data after the header, u32 or u64 identifier.
 """
 
 import asyncio
@@ -37,13 +37,13 @@ def hello_body():
 
 
 def interface_info_body(device):
-    """Their numbers, classes, subclasses and protocols, 32 of each."""
+    """The interfaces' numbers, classes, subclasses and protocols, 32 of each."""
     columns = zip(*device.interfaces)
     return struct.pack("<I", len(device.interfaces)) + b"".join(bytes(column).ljust(32, b"\0") for column in columns)
 
 
 def endpoint_info_body(device, with_packet_sizes):
-    """Ordered by endpoint: 0 to 15 out, 16 to 31 in."""
+    """The endpoints' data, in the order 0 to 15 out, 16 to 31 in."""
     kinds, intervals, interfaces, sizes = [255] * 32, [0] * 32, [0] * 32, [0] * 32
     kinds[0] = kinds[16] = 0  # control
     sizes[0] = sizes[16] = 64
@@ -80,7 +80,7 @@ class UsbredirLink:
         return f"usbredir at {self._path}"
 
     async def ended(self):
-        """The link never ends: a virtual machine may connect again."""
+        """Never returns, because a virtual machine may connect again."""
         await asyncio.Event().wait()
 
     def close(self):

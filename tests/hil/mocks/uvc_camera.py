@@ -1,9 +1,9 @@
-"""A camera of the USB Video Class, as webcams are: it sends a test picture, or one that it is told to play, by bulk transfers.
+"""A camera of the USB Video Class, like a webcam: it sends a test picture, or a picture given by `play`, by bulk transfers.
 
 Source   USB Device Class Definition for Video Devices, revision 1.1: chapters 3 (descriptors), 4.2 (controls), 4.3.1 (probe and
-         commit), 2.4.3.3 (payload headers); its payload specifications for uncompressed video and Motion-JPEG. Written from these
-         alone; the kernel's uvcvideo says whether it is right.
-Bulk     a payload is one transfer, so that a short one ends it; 16384 bytes are the most that uvcvideo takes at once.
+         commit), 2.4.3.3 (payload headers); its payload specifications for uncompressed video and Motion-JPEG. Written only from
+         these; the kernel's uvcvideo is the test.
+Bulk     a payload is one transfer, so that a short one ends it; uvcvideo takes at most 16384 bytes at once.
 """
 
 import asyncio
@@ -15,24 +15,24 @@ from .faults import Faults, Kind
 from .usb_device import BULK, HIGH_SPEED, IN, Endpoint, UsbDevice
 
 KINDS = {
-    "freeze": Kind(None, None, "the same picture again and again"),
-    "slow": Kind(5, (0.2, 120), "so many frames a second, whatever was agreed on"),
+    "freeze": Kind(None, None, "repeats the same picture"),
+    "slow": Kind(5, (0.2, 120), "so many frames a second, whatever rate was negotiated"),
     "dark": Kind(None, None, "its lens is covered: black with a sensor's noise"),
     "blind": Kind(None, None, "light shines into it: white"),
     "short-frames": Kind(None, None, "each frame lacks its last tenth"),
     "garbage-headers": Kind(None, None, "payload headers of random bytes"),
     "stall": Kind(None, None, "no frames; requests are answered"),
-    "hang": Kind(None, None, "nothing goes in or out, though the cable is in"),
-    "stubborn": Kind(None, None, "its exposure stays automatic, whatever it is told"),
-    "unplug": Kind(None, None, "the USB cable is out; plugged in again it starts anew"),
+    "hang": Kind(None, None, "sends and accepts nothing, though the cable is in"),
+    "stubborn": Kind(None, None, "its exposure stays automatic, whatever it is set to"),
+    "unplug": Kind(None, None, "the USB cable is out; plugged in again, it restarts"),
 }
 
 STREAM = IN | 1
 PAYLOAD_BYTES = 16384
 FORMATS = ("yuyv", "mjpeg")  # by their numbers in the descriptors, from 1
-SIZES = ((160, 120), (320, 240))  # likewise
+SIZES = ((160, 120), (320, 240))  # also by their numbers, from 1
 RATES_HZ = {("yuyv", SIZES[0]): (30, 15, 5), ("yuyv", SIZES[1]): (5,), ("mjpeg", SIZES[0]): (30, 15, 5), ("mjpeg", SIZES[1]): (30, 15)}
-# As webcams have it: a large picture comes fast only as JPEG.
+# As with webcams, a large picture has a high rate only as JPEG.
 
 _CONTROL_INTERFACE, _STREAM_INTERFACE = 0, 1
 _TERMINAL, _UNIT, _OUTPUT = 1, 2, 3  # entities
@@ -51,7 +51,7 @@ def _intervals(format_, size):
 
 
 class _Control:
-    """length, least, most, step, default."""
+    """length, minimum, maximum, step, default."""
 
     def __init__(self, length, least, most, step, default):
         self.length, self.default = length, default
@@ -121,9 +121,9 @@ class UvcCamera(UsbDevice):
     def __init__(self, seed=1):
         super().__init__()
         self.faults = Faults(seed, kinds=KINDS)
-        self.counts = {"sent": 0, "skipped": 0}  # frames; skipped: the host had not yet read the one before
+        self.counts = {"sent": 0, "skipped": 0}  # frames; skipped: because the host had not yet read the frame before
         self.number = 0  # of the latest frame
-        self.played = None  # what the lens sees in place of the test picture: (width, height, luma)
+        self.played = None  # a picture in place of the test picture: (width, height, luma)
         self.start_anew()
 
     def start_anew(self):
@@ -261,7 +261,7 @@ class UvcCamera(UsbDevice):
         return data[:len(data) - len(data) // 10] if self.faults.on("short-frames") else data
 
     def play(self, width, height, luma):
-        """From the next frame on, where a host has agreed on this size. Errors: ValueError."""
+        """Plays this picture from the next frame on, if its size is the negotiated one. Errors: ValueError."""
         if (width, height) not in SIZES:
             sizes = ", ".join(f"{allowed[0]} x {allowed[1]}" for allowed in SIZES)
             raise ValueError(f"the picture is {width} x {height} pixels; allowed are {sizes}")

@@ -1,6 +1,6 @@
 """A Polhemus VIPER: frames of poses, commands and their answers. Little-endian throughout.
 
-Frame: preamble, u32 size of all that follows, body, u32 CRC over everything before. 'VPRP' are poses: u32 serial,
+Frame: preamble, u32 size of the rest, body, u32 CRC of all bytes before it. 'VPRP' are poses: u32 serial,
 u32 counter, u32 info, u32 sensor count, then 32 bytes each sensor. 'VPRC' are commands and answers: u32 serial,
 u32 command, u32 action, u32 arg1, u32 arg2, payload.
 """
@@ -18,9 +18,9 @@ from .usb_device import BULK, IN, Endpoint
 HEMISPHERE, FILTER, FRAME_RATE, UNITS, SINGLE, CONTINUOUS, WHO_AM_I = 0, 1, 6, 7, 18, 19, 20
 SET, GET, RESET, ACK, NAK, NAK_WARNING = range(6)
 NAK_GENERAL, NAK_BOOTING, NAK_COMMAND = range(3)
-BOTH, TURNS, PLACES = range(3)  # the target of a filter; BOTH can be set and reset, but not asked
+BOTH, TURNS, PLACES = range(3)  # the target of a filter; BOTH can be set and reset, but not read
 MEDIUM = 2  # one of the filters' levels
-ALL_SENSORS = 0xFFFFFFFF  # can be set and reset, but not asked
+ALL_SENSORS = 0xFFFFFFFF  # can be set and reset, but not read
 INCHES, FEET, CENTIMETRES, METRES = range(4)
 DEGREES, RADIANS, QUATERNION = range(3)
 SERIAL = 700001
@@ -182,7 +182,7 @@ class Viper(Tracker):
 
     @staticmethod
     def false_start(random_):
-        """The size may be right for its sensors, the longest of an answer, or impossible."""
+        """Noise with a header whose size fits its sensors, or is the largest of an answer, or is impossible."""
         count = random_.randrange(17)
         preamble, size = random_.choice(((b"VPRP", 20 + 32 * count), (b"VPRC", 1048), (b"VPRP", 0xFFFFFFFF),
                                          (b"VPRC", 0)))
