@@ -60,7 +60,7 @@ quietly() {
     return "$status"
 }
 
-# Where ccache is installed, it finds what another clone on this machine has compiled. Nothing depends on it.
+# If ccache is installed, it finds the objects of another clone on this machine. The build does not depend on it.
 launcher=$(command -v ccache || true)
 timed="$PWD/cmake/timed"
 export CMAKE_{C,CXX}_COMPILER_LAUNCHER="$timed;compile${launcher:+;$launcher}" # for a new build folder

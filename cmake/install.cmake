@@ -1,7 +1,7 @@
 # Installs in three components, each a Debian package (cmake/packages.cmake):
-#   base   the exhibit's program and what kiosks and curators both use; starts nothing
-#   kiosk  what makes a PC the exhibit: units, rules, users, settings; needs base
-#   bake   what curators use on their own computers; needs base
+#   base   the exhibit's program and the files that kiosks and curators both use; starts nothing
+#   kiosk  the files that turn a PC into the exhibit: units, rules, users, settings; needs base
+#   bake   the programs for curators' own computers; needs base
 # The paths are those of the units: a kiosk is one image, not a prefix.
 set(base_programs frustumscreen frustumscreen-pack frustumscreen-import frustumscreen-calibrate)
 set(bake_programs frustumscreen-bake frustumscreen-artifact frustumscreen-poses frustumscreen-sheet)
@@ -56,7 +56,7 @@ add_custom_command(OUTPUT ${built_in}.fspack
 add_custom_target(frustumscreen-built-in ALL DEPENDS ${built_in}.fspack)
 install(FILES ${built_in}.fspack DESTINATION /usr/share/frustumscreen COMPONENT base EXCLUDE_FROM_ALL)
 
-# The settings as shipped, with the packs where a kiosk has them. A museum's own settings stay.
+# The shipped settings, with the paths of the packs on a kiosk. A museum's own settings are not overwritten.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/config/kiosk.toml)
 file(READ ${CMAKE_SOURCE_DIR}/config/kiosk.toml kiosk_settings)
 string(REPLACE "../out/packs/" "/var/lib/frustumscreen/packs/" kiosk_settings "${kiosk_settings}")
@@ -65,7 +65,7 @@ file(WRITE ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml "${kiosk_settings}")
 install(FILES ${CMAKE_BINARY_DIR}/kiosk/kiosk.toml DESTINATION /usr/share/frustumscreen
     COMPONENT base EXCLUDE_FROM_ALL)
 install(CODE "
-    # DESTDIR goes in front by itself.
+    # file(INSTALL) itself puts DESTDIR before the destination.
     if(NOT EXISTS \"\$ENV{DESTDIR}/etc/frustumscreen/kiosk.toml\")
         file(INSTALL \"${CMAKE_BINARY_DIR}/kiosk/kiosk.toml\" DESTINATION /etc/frustumscreen)
     endif()" COMPONENT kiosk EXCLUDE_FROM_ALL)

@@ -238,7 +238,7 @@ def main():
     unsafe = sum(row.notes["unsafe file lost"] for row in cuts.rows.values())
     lying = Cuts(arguments)
     found = lying.look(recorded, min(per_phase, 20), 0, random.Random(arguments.seed), heeds_flushes=False)
-    print(f"controls: a file that was written without a sync was lost by {unsafe} cuts; a disk that passes over flushes has faults after "
+    print(f"controls: a file that was written without a sync was lost by {unsafe} cuts; a disk that ignores flushes has faults after "
           f"{found} of {sum(row.states for row in lying.rows.values())} cuts")
     if not found or (not unsafe and per_phase >= ENOUGH):
         print("cuts: the harness finds no damage where there is some", file=sys.stderr)

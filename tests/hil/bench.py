@@ -258,8 +258,8 @@ class Bench:
         return [self._rendered[pose, artifact, eye_m] for pose in poses]
 
     def render(self, poses, artifact, eye_m, config=CONFIG, head=UPRIGHT, options=(), torches=None):
-        """As `rendered`, with other settings, another rotation of the head and options of `render`; draws anew each time. `torches`: for
-        each pose, the torch's pose."""
+        """As `rendered`, with other settings, another rotation of the head and options of `render`; draws each time. `torches`: for each
+        pose, the torch's pose."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]

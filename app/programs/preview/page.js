@@ -84,7 +84,7 @@
     });
   });
 
-  // A torch: what it shows is seen around the pointer. One plain sheet serves all contents.
+  // A torch: its content is visible around the pointer. All contents use the same plain sheet.
   const plain = document.querySelector('.beam .plain');
   document.querySelectorAll('.beam').forEach((beam) => {
     const copy = (kind) => {
@@ -109,14 +109,14 @@
     beam.addEventListener('pointerleave', () => beam.style.setProperty('--radius', '0px'));
   });
 
-  // A page that loads itself again goes on where it was.
+  // A page that reloads itself continues at the same picture.
   const kept = /^#turn=(\d+)(,stop)?$/.exec(location.hash);
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
   show(kept ? Number(kept[1]) : 0);
   turn_by_itself(kept ? !kept[2] : !still);
   root.keep = () => '#turn=' + shown + (timer === 0 ? ',stop' : '');
 
-  // What this browser cannot show or play is said, instead of an empty place.
+  // Names the pictures and sounds that this browser cannot show or play, instead of leaving an empty place.
   const images = [...document.images];
   const sounds = [...document.querySelectorAll('audio')];
   const bad = new Set();
