@@ -20,15 +20,15 @@ HEAD = """# Rooms
 
 A room is a folder that is one static library. This page is generated from the `CMakeLists.txt` files and from `tests/examples`: `cmake/rooms_page.py > docs/rooms.md`.
 A newcomer to a room opens the header of the fourth column first. A room may include the rooms of the last column, what those may include, and nothing else;
-`tests/layers` holds every `#include` against it. Rooms whose name is a link have an example below.
+`tests/layers` checks every `#include` against this list. Rooms whose name is a link have an example below.
 
 | folder | room | purpose | begin with | may include |
 |---|---|---|---|---|"""
 EXAMPLES_HEAD = """
 ## Examples
 
-How each room is used, in some ten lines. The test `examples_test` runs all of them. They are in a namespace of their own, so that each name shows
-its room; a function that no header declares is in the whole file."""
+How each room is used, in about ten lines. The test `examples_test` runs all examples. They are in a namespace of their own, so that each name is
+written with its room. A function that no header declares is defined in the whole file."""
 
 
 class Lack(Exception):

@@ -128,7 +128,7 @@ bool Walk::visit(const std::string& folder, const FolderEntry& entry) {
     ++entries_;
     if (too_late_()) {
         failure_ = too_slow();
-    } else if (!is_passed_over(entry.name)) {
+    } else if (!is_ignored(entry.name)) {
         look_at(folder, entry);
     }
     if (entries_ > limits_.max_entries) {
@@ -229,7 +229,7 @@ tl::expected<StickFiles, ImportFailure> Walk::all() {
 
 } // namespace
 
-bool is_passed_over(std::string_view name) {
+bool is_ignored(std::string_view name) {
     return name.starts_with('.') ||
            std::find(system_names.begin(), system_names.end(), in_small_letters(name)) != system_names.end();
 }

@@ -32,7 +32,7 @@ struct StickFiles {
 };
 
 /// True if a file or folder of this name is always ignored.
-[[nodiscard]] bool is_passed_over(std::string_view name);
+[[nodiscard]] bool is_ignored(std::string_view name);
 
 /// `too_late` is asked after every entry.
 [[nodiscard]] tl::expected<StickFiles, ImportFailure> walk_stick(FileTree& stick, const ImportLimits& limits,

@@ -113,9 +113,9 @@ Result<void> check_levels(const Pack& pack, Read read) {
     TRY_VOID(check_level_count(pack, pack.levels.size()));
     bool uses_relief = false;
     for (std::size_t k = 0; k < pack.levels.size(); ++k) {
-        const bool passed_over = read == Read::Chosen && pack.levels[k].indices.empty();
+        const bool skipped = read == Read::Chosen && pack.levels[k].indices.empty();
         TRY_VOID(at(fmt::format("level {}", k),
-                    passed_over ? check_errors(pack.levels[k].error) : check_level(pack, pack.levels[k])));
+                    skipped ? check_errors(pack.levels[k].error) : check_level(pack, pack.levels[k])));
         uses_relief = uses_relief || pack.levels[k].technique == LevelTechnique::Relief;
     }
     if (!uses_relief && !pack.relief.relief.texels.empty()) {

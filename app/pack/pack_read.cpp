@@ -40,7 +40,7 @@ Result<void> read_textures(PackReader& reader, const Chosen& chosen, Pack& pack)
     std::int64_t left = max_texels_together;
     for (const std::string& name : reader.manifest().textures) {
         if (!chosen.textures[pack.textures.size()]) {
-            TRY_VOID(reader.pass_over(name));
+            TRY_VOID(reader.skip(name));
             pack.textures.emplace_back();
             continue;
         }
@@ -57,7 +57,7 @@ Result<void> read_relief(PackReader& reader, const Chosen& chosen, Pack& pack) {
         return {};
     }
     if (!chosen.relief) {
-        return reader.pass_over(record->atlas).and_then([&] { return reader.pass_over(record->charts); });
+        return reader.skip(record->atlas).and_then([&] { return reader.skip(record->charts); });
     }
     TRY(const Bytes atlas, reader.take(record->atlas));
     TRY(image::Image16 relief, at(record->atlas, image::decode_png16(atlas, max_texels)));
@@ -83,7 +83,7 @@ Result<PackLevel> read_level(PackReader& reader, const LevelRecord& record, cons
 Result<void> read_levels(PackReader& reader, const Chosen& chosen, Pack& pack) {
     for (const LevelRecord& record : reader.manifest().levels) {
         if (!chosen.levels[pack.levels.size()]) {
-            TRY_VOID(reader.pass_over(record.mesh));
+            TRY_VOID(reader.skip(record.mesh));
             pack.levels.push_back({.technique = record.technique,
                                    .error = record.error,
                                    .texture = record.texture,
@@ -106,12 +106,12 @@ Result<void> read_extras(PackReader& reader, Read read, Pack& pack) {
     if (read == Read::All) {
         TRY(pack.table_picture, read_table_picture(reader));
     } else if (!reader.manifest().table_picture.empty()) {
-        TRY_VOID(reader.pass_over(reader.manifest().table_picture));
+        TRY_VOID(reader.skip(reader.manifest().table_picture));
     }
     for (const PackSection& section : pack.sections) {
         for (const std::string& name : section.parts) {
             if (read == Read::Chosen) {
-                TRY_VOID(reader.pass_over(name));
+                TRY_VOID(reader.skip(name));
                 continue;
             }
             TRY(Bytes bytes, reader.take(name));

@@ -114,7 +114,7 @@ Result<const PartRecord*> PackReader::use(const std::string& name) {
     return part;
 }
 
-Result<void> PackReader::pass_over(const std::string& name) {
+Result<void> PackReader::skip(const std::string& name) {
     return use(name).map([](const PartRecord*) {});
 }
 

@@ -39,8 +39,8 @@ public:
     /// piece; they are valid only if the check succeeds.
     [[nodiscard]] Result<void> check(const std::string& name,
                                      const std::function<void(std::span<const std::byte>)>& pass);
-    /// Counts a part as used without reading its bytes; each part can be taken or passed over once.
-    [[nodiscard]] Result<void> pass_over(const std::string& name);
+    /// Counts a part as used without reading its bytes; each part can be taken or skipped once.
+    [[nodiscard]] Result<void> skip(const std::string& name);
     /// The bytes of the entry `signature`, unchecked; nothing if there is none.
     [[nodiscard]] Result<std::optional<std::string>> signature() { return read_signature_entry(zip_); }
     /// Refuses parts without a reference to them.

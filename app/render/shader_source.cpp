@@ -227,8 +227,8 @@ void main() { result = vec4(brightness * texture(image, at).rgb, 1.0); }
 
 /// Rectangles of the picture's pixels, six corners each, at the far plane.
 constexpr std::string_view tiles_vertex = R"(
-uniform vec4 rectangles[MOST_RECTANGLES]; // x, y, width, height
-uniform vec2 picture;                     // size in pixels
+uniform vec4 rectangles[MAX_RECTANGLES]; // x, y, width, height
+uniform vec2 picture;                    // size in pixels
 void main() {
     int corner = gl_VertexID % 6;
     vec4 r = rectangles[gl_VertexID / 6];
@@ -328,7 +328,7 @@ ShaderSource source_of(const scene::ShaderKey& key, bool bends) {
     const std::string defines =
         (bends ? fmt::format("#define QUAD_CELLS {}{}", quad_cells, lens) : std::string()) + defines_of(key);
     const std::string tiles_defines =
-        fmt::format("#define MOST_RECTANGLES {}\n{}", scene::LitTiles::max_rectangles, defines_of(key));
+        fmt::format("#define MAX_RECTANGLES {}\n{}", scene::LitTiles::max_rectangles, defines_of(key));
     const auto quad = [](std::string_view vertex) {
         return fmt::format("{}{}{}", bent_vertex, quad_vertex, vertex);
     };

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// True for hidden files, those of file managers, and what a bake writes.
-bool is_passed_over(const fs::path& file) {
+bool is_ignored(const fs::path& file) {
     static constexpr std::array<std::string_view, 3> names = {artifact_file_name, "Thumbs.db", "desktop.ini"};
     static constexpr std::array<std::string_view, 3> ends = {".fspack", ".minisig", ".html"};
     const std::string name = file.filename().string();
@@ -39,7 +39,7 @@ std::vector<std::string> unused_files(const fs::path& folder, std::span<const fs
         const bool is_used = std::any_of(used.begin(), used.end(), [&](const fs::path& other) {
             return fs::equivalent(file, other, none);
         });
-        if (each->is_regular_file(none) && !is_used && !is_passed_over(file)) {
+        if (each->is_regular_file(none) && !is_used && !is_ignored(file)) {
             unused.push_back(file.filename().string());
         }
     }

@@ -199,7 +199,7 @@ CameraDriver::Step CameraDriver::step(CameraFrame& frame) {
             use_(frame);
         }
         static_cast<void>(pace_.end());
-    } else if (taken == V4l2Stream::Taken::PassedOver) {
+    } else if (taken == V4l2Stream::Taken::Skipped) {
         judge_->hear(now, 1 + overtaken);
         heard_ = now;
     }

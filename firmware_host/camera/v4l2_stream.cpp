@@ -115,7 +115,7 @@ V4l2Stream::Taken V4l2Stream::take(Nanoseconds timeout, const std::function<Mono
     const MonotonicTime time = time_of(*latest, now());
     if (!pace.begin(time)) {
         ++counts.skipped;
-        return device_->ask(VIDIOC_QBUF, *latest) == 0 ? Taken::PassedOver : Taken::Lost;
+        return device_->ask(VIDIOC_QBUF, *latest) == 0 ? Taken::Skipped : Taken::Lost;
     }
     const std::span<const std::byte> memory = buffers_[latest->index];
     const bool whole = reader_.read(

@@ -25,7 +25,7 @@ public:
     V4l2Stream(const V4l2Stream&) = delete;
     V4l2Stream& operator=(const V4l2Stream&) = delete;
 
-    enum class Taken : std::uint8_t { Frame, PassedOver, Nothing, Lost };
+    enum class Taken : std::uint8_t { Frame, Skipped, Nothing, Lost };
     /// Takes the latest of the waiting frames; adds to `counts`. `now` is called after the wait. For a Frame,
     /// `pace.begin` was called; a frame that `pace` skips is not decoded.
     [[nodiscard]] Taken take(Nanoseconds timeout, const std::function<MonotonicTime()>& now,

@@ -30,7 +30,7 @@ ReplayTracker::ReplayTracker(std::vector<PoseSample> samples, MonotonicTime star
 }
 
 /// Skips whole rounds that became due at once between two polls.
-void ReplayTracker::pass_over_rounds(MonotonicTime now) {
+void ReplayTracker::skip_rounds(MonotonicTime now) {
     constexpr auto max_at_once = static_cast<Nanoseconds::rep>(max_rounds_samples);
     if (recording_.empty() || length_ <= Nanoseconds::zero()) {
         return;
@@ -43,7 +43,7 @@ void ReplayTracker::pass_over_rounds(MonotonicTime now) {
 }
 
 Result<void> ReplayTracker::poll(MonotonicTime now, std::vector<PoseSample>& samples) {
-    pass_over_rounds(now);
+    skip_rounds(now);
     while (next_ < recording_.size() && recording_[next_].time + shift_ <= now) {
         PoseSample sample = recording_[next_];
         sample.time += shift_;

@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    void pass_over_rounds(MonotonicTime now);
+    void skip_rounds(MonotonicTime now);
 
     std::vector<PoseSample> recording_;
     Nanoseconds shift_{0};  ///< from the recording's clock to ours

@@ -47,10 +47,10 @@ class Squashfs:
         self.files = dict(sorted(self.files.items()))
         self.share_out()
 
-    def unpack(self, data, most):
-        out = ctypes.create_string_buffer(most)
-        size = self.zstd.ZSTD_decompress(out, most, data, len(data))
-        if size > most:
+    def unpack(self, data, max_bytes):
+        out = ctypes.create_string_buffer(max_bytes)
+        size = self.zstd.ZSTD_decompress(out, max_bytes, data, len(data))
+        if size > max_bytes:
             raise ValueError("the squashfs image has a damaged block")
         return out.raw[:size]
 

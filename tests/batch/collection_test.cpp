@@ -39,7 +39,7 @@ TEST_F(CollectionFolder, FoldersWithAnArtifactFileAndScansAreObjects) {
     ASSERT_TRUE(collection) << collection.error().message;
     EXPECT_EQ(names_of(collection->objects),
               (std::vector<std::string>{"Bowl", "cup", "report", "vase", "vase"}));
-    EXPECT_EQ(collection->passed_over, std::vector<std::string>{"letters"});
+    EXPECT_EQ(collection->skipped, std::vector<std::string>{"letters"});
     EXPECT_EQ(collection->objects[2].fault, "report: the batch's own reports have this name; rename it");
     EXPECT_EQ(collection->objects[3].fault, "");
     EXPECT_EQ(collection->objects[4].fault,

@@ -42,7 +42,7 @@ TEST(PaperChoice, TheMostImportantCellsArePolygonsWithinTheBudget) {
     EXPECT_EQ(chosen({distance_alone, 300.0}, cells), (std::vector{0, 1, 0}));
     EXPECT_EQ(chosen({distance_alone, 500.0}, cells), (std::vector{0, 1, 1}));
     EXPECT_EQ(chosen({distance_alone, 600.0}, cells), (std::vector{1, 1, 1}));
-    // An object that does not fit is passed over; a less important one may fit.
+    // An object that does not fit is skipped; a less important one may fit.
     EXPECT_EQ(chosen({distance_alone, 299.0}, cells), (std::vector{0, 0, 1}));
     EXPECT_EQ(chosen({distance_alone, 150.0}, cells), (std::vector{1, 0, 0}));
 }

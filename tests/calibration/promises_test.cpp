@@ -22,10 +22,10 @@ constexpr double top_m = 0.12;
 /// How often the reported distances hold, over tables.
 struct Kept {
     double tables = 0.0;
-    double usual = 0.0, most = 0.0, worst = 0.0; ///< shares of the places, of the places, and of the tables
+    double usual = 0.0, max = 0.0, worst = 0.0; ///< shares of the places, of the places, and of the tables
     double max_squares = 0.0;
     double mean_mm = 0.0, worst_mm = 0.0, farthest_mm = 0.0; ///< true errors
-    double said_most_mm = 0.0, said_worst_mm = 0.0;
+    double said_max_mm = 0.0, said_worst_mm = 0.0;
     int good = 0, usable = 0, repeat = 0, refused = 0;
 
     void count(Verdict verdict) {
@@ -37,28 +37,28 @@ struct Kept {
     /// `off_m`: the true error of each place.
     void add(std::span<const double> off_m, const PictureShares& said) {
         double within_usual = 0.0;
-        double within_most = 0.0;
+        double within_max = 0.0;
         double sum = 0.0;
         double worst_of_table = 0.0;
         for (const double off : off_m) {
             within_usual += off <= said.usual_m ? 1.0 : 0.0;
-            within_most += off <= said.max_m ? 1.0 : 0.0;
+            within_max += off <= said.max_m ? 1.0 : 0.0;
             sum += off;
             worst_of_table = std::fmax(worst_of_table, off);
         }
         const auto places = static_cast<double>(off_m.size());
         tables += 1.0;
         usual += within_usual / places;
-        most += within_most / places;
-        max_squares += within_most * within_most / (places * places);
+        max += within_max / places;
+        max_squares += within_max * within_max / (places * places);
         worst += worst_of_table <= said.worst_m ? 1.0 : 0.0;
         mean_mm += 1e3 * sum / places;
         worst_mm += 1e3 * worst_of_table;
         farthest_mm = std::fmax(farthest_mm, 1e3 * worst_of_table);
-        said_most_mm += 1e3 * said.max_m;
+        said_max_mm += 1e3 * said.max_m;
         said_worst_mm += 1e3 * said.worst_m;
     }
-    [[nodiscard]] double max_share() const { return most / tables; }
+    [[nodiscard]] double max_share() const { return max / tables; }
     /// Standard deviation of max_share.
     [[nodiscard]] double max_error() const {
         return std::sqrt(std::fmax(0.0, max_squares / tables - max_share() * max_share()) / tables);
@@ -70,7 +70,7 @@ struct Kept {
                     "are said to "
                     "be: %.1f %% / %.1f %% (+- %.1f), worst places: %.1f %%\n",
                     what, tables, good, usable, repeat, refused, mean_mm / tables, worst_mm / tables,
-                    farthest_mm, said_most_mm / tables, said_worst_mm / tables, 100.0 * usual / tables,
+                    farthest_mm, said_max_mm / tables, said_worst_mm / tables, 100.0 * usual / tables,
                     100.0 * max_share(), 100.0 * max_error(), 100.0 * worst / tables);
     }
 };

@@ -193,15 +193,15 @@ class Cuts:
     def _lost(pc, must):
         """The acknowledged data that the started kiosk lacks, by its own report."""
         wrong = []
-        if "machine-id" in must.least and pc.check("cat /etc/machine-id").strip() != must.least["machine-id"]:
+        if "machine-id" in must.min_value and pc.check("cat /etc/machine-id").strip() != must.min_value["machine-id"]:
             wrong.append("another machine-id")
-        if "kept" in must.least and (kept_number(pc.read(KEPT) or "") or 0) < must.least["kept"]:
+        if "kept" in must.min_value and (kept_number(pc.read(KEPT) or "") or 0) < must.min_value["kept"]:
             wrong.append("the kept file is damaged or old")
-        if "settings" in must.least and "# saved" not in (pc.read(SETTINGS) or ""):
+        if "settings" in must.min_value and "# saved" not in (pc.read(SETTINGS) or ""):
             wrong.append("the settings are lost")
-        if "set" in must.least:
+        if "set" in must.min_value:
             listed = pc.run(f"frustumscreen-import --list --into {LIBRARY} --json")
-            if listed.status != 0 or json.loads(listed.output)["number"] < must.least["set"]:
+            if listed.status != 0 or json.loads(listed.output)["number"] < must.min_value["set"]:
                 wrong.append(f"the set is lost: {listed.output.strip()}")
         notes = pc.notes().strip()
         if "until the machine is switched off" in notes:

@@ -165,8 +165,8 @@ class Checker:
         self._look_at_boot(disk, found, generation, state)
         if table == "second" and not all(version.reads_second_table for version in self._versions.values() if version.name == state.version):
             state.faults.append("the first partition table is torn, and this kernel reads no other")
-        if "version" in must.least and state.version != must.least["version"]:
-            state.faults.append(f"version {state.version} would start, though {must.least['version']} was told as taken")
+        if "version" in must.min_value and state.version != must.min_value["version"]:
+            state.faults.append(f"version {state.version} would start, though {must.min_value['version']} was told as taken")
         self._look_at_data(disk, found[DATA], must, state)
         return state
 
@@ -246,17 +246,17 @@ class Checker:
         self._look_at_files(tree, must, state)
 
     def _look_at_files(self, tree, must, state):
-        if "machine-id" in must.least:
+        if "machine-id" in must.min_value:
             found = _read(tree / "machine-id")
-            if (found or b"").decode(errors="replace").strip() != must.least["machine-id"]:
-                state.faults.append(f"the machine-id was {must.least['machine-id']}, and is {found}")
+            if (found or b"").decode(errors="replace").strip() != must.min_value["machine-id"]:
+                state.faults.append(f"the machine-id was {must.min_value['machine-id']}, and is {found}")
         for what, name, number_of in (("settings", "kiosk.toml", _saved_number), ("kept", "kept.txt", kept_number),
                                       ("unsafe", "unsafe.txt", kept_number)):
             data = _read(tree / "settings" / name)
             found = number_of(data.decode(errors="replace")) if data is not None else 0
-            least, most = must.least.get(what, 0), must.most.get(what, 0)
-            if found is None or not least <= found <= most:
-                fault = f"{name} is damaged" if found is None else f"{name} has number {found}, not {least} to {most}"
+            min_number, max_number = must.min_value.get(what, 0), must.max_value.get(what, 0)
+            if found is None or not min_number <= found <= max_number:
+                fault = f"{name} is damaged" if found is None else f"{name} has number {found}, not {min_number} to {max_number}"
                 if what == "unsafe":
                     state.notes.add("unsafe file lost")
                 else:
@@ -277,7 +277,7 @@ class Checker:
             state.faults.append("the watchdog's faults are torn")
 
     def _look_at_library(self, library, must, state):
-        least, most = must.least.get("set", 0), must.most.get("set", 0)
+        min_number, max_number = must.min_value.get("set", 0), must.max_value.get("set", 0)
         found = 0
         if (library / "set.txt").exists():
             done = self._tools.run("import", "--list", "--into", library, "--json")
@@ -288,8 +288,8 @@ class Checker:
             found = listed["number"]
             for pack in listed["packs"]:
                 self._look_at_pack(library / pack["file"], pack["sha256"], state)
-        if not least <= found <= most:
-            state.faults.append(f"the set is number {found}, not {least} to {most}")
+        if not min_number <= found <= max_number:
+            state.faults.append(f"the set is number {found}, not {min_number} to {max_number}")
 
     def _look_at_pack(self, path, sha256, state):
         if hashlib.sha256(_read(path) or b"").hexdigest() != sha256:
@@ -329,16 +329,16 @@ def _are_lines(data):
 
 
 class Must:
-    """The marks of a log. `least`: value of the last write that was acknowledged; `most`: value of the last write that began."""
+    """The marks of a log. `min_value`: of the last write that was acknowledged; `max_value`: of the last write that began."""
 
     def __init__(self):
-        self.phase, self.least, self.most = "", {}, {}
+        self.phase, self.min_value, self.max_value = "", {}, {}
 
     def take(self, words):
         mark = json.loads(words)
         if "phase" in mark:
             self.phase = mark["phase"]
         if "begun" in mark and mark["begun"] != "version":
-            self.most[mark["begun"]] = mark["value"]
+            self.max_value[mark["begun"]] = mark["value"]
         if "kept" in mark and mark["kept"] != "grown":
-            self.least[mark["kept"]] = mark["value"]
+            self.min_value[mark["kept"]] = mark["value"]

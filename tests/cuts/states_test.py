@@ -126,7 +126,7 @@ class States(unittest.TestCase):
         state = self.look()
         self.assertEqual((state.faults, state.version), ([], "0.1.0"))
 
-    def test_an_empty_one_is_passed_over(self):
+    def test_an_empty_one_is_ignored(self):
         empty = self.folder / "empty"
         empty.touch()
         run("mcopy", "-i", f"{self.disk}@@{self.parts[ESP][0]}", empty, "::EFI/Linux/frustumscreen_0.3.0+3.efi")

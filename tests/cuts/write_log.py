@@ -237,7 +237,7 @@ class _Limited:
     def __init__(self, file, left):
         self._file, self._left = file, left
 
-    def read(self, most):
-        data = self._file.read(min(most, self._left))
+    def read(self, max_bytes):
+        data = self._file.read(min(max_bytes, self._left))
         self._left -= len(data)
         return data

@@ -53,7 +53,7 @@ TEST_F(Drawing, AnotherGpuDrawsForACardThatOnlyShows) {
     EXPECT_EQ(opened(), 3);
 }
 
-TEST_F(Drawing, AGpuThatCannotBeOpenedIsPassedOver) {
+TEST_F(Drawing, AGpuThatCannotBeOpenedIsSkipped) {
     kernel.add_gpu({"/dev/dri/renderD129", "NV136", nullptr});
     kernel.fail_always("open", EACCES);
     EXPECT_TRUE(holds(draws(true), "llvmpipe")) << "the processor draws into the card's memory";

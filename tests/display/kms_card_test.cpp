@@ -223,7 +223,7 @@ TEST_F(SeveralCards, TheOneWithTheProjectorIsOpened) {
     EXPECT_EQ(KmsCard::open("card1", {}, cards())->path(), path("card1")) << "the one that is named";
 }
 
-TEST_F(SeveralCards, OneThatCannotBeOpenedIsPassedOverAndElseSaysWhy) {
+TEST_F(SeveralCards, OneThatCannotBeOpenedIsSkippedAndElseSaysWhy) {
     add("card0").card.gone = true;
     add("card1");
     EXPECT_EQ(opened(), "card1");

@@ -118,7 +118,7 @@ TEST_P(Device, WithoutVerticalBlanksFlipsKeepNoTime) {
     EXPECT_FALSE(kms_->flips_keep_time());
 }
 
-TEST_P(Device, WhatIsNoFlipOfOursIsPassedOver) {
+TEST_P(Device, WhatIsNoFlipOfOursIsIgnored) {
     lit();
     drm_event_vblank event{};
     event.base = {DRM_EVENT_VBLANK, sizeof event};

@@ -1,5 +1,5 @@
-// A window's world, seen by the cameras of the patch that an eye is in, becomes a layered depth image; it is drawn for any eye of the
-// patch without the world.
+// The cameras of the patch that holds the eye draw the window's world. Their pictures become one layered depth image, which is drawn for
+// any eye of the patch without the world.
 #include "app/ldi/patch_layers.h"
 #include "app/ldi/triangle_rasterizer.h"
 

@@ -1,5 +1,4 @@
-// One step after the other loads the needed artifacts within a budget, and releases others if they do not
-// fit.
+// Each step loads a needed artifact, or releases another one if the budget is too small for it.
 #include "app/residency/residency.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A room is a file: packs, each as often as it stands in the room, with places, sizes and motions. Here: a cup that turns once a minute,
-// and a second one beside it.
+// A room is a file that lists its objects, each with its pack, place, size and motion. Here: a cup that turns once a minute, and a
+// second one beside it.
 #include "app/room/room_file.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// systemd's watchdog is fed while pictures change and every device thread keeps its promise.
+// systemd's watchdog is fed while pictures change and every device thread gives a sign of life by the time it has promised.
 #include "firmware_host/service/watchdog_policy.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A prop file is a plain OBJ. Here: a prism on a triangle, as text, and how wide it is at least.
+// A prop file is a plain OBJ. Here: a triangular prism, as text, its volume and its least width.
 #include "app/solid/prop_file.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A torch is a beam and a content. Here: plain light through a beam of 90 degrees, which falls with the square of its way
-// and ends where the eye no longer sees it.
+// A torch is a beam and a content. Here: plain light through a beam of 90 degrees. Its intensity falls with the square of
+// the distance, and the beam ends where the eye no longer sees it.
 #include "app/torch/content.h"
 #include "app/torch/torch.h"
 

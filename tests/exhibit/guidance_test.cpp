@@ -223,9 +223,9 @@ TEST_F(GuidedExhibit, ShowsASignThenWordsThenSpeaks) {
     EXPECT_TRUE(!words.caption || words.caption->brightness < 0.01);
     at(seconds(7), 0.3);
     EXPECT_EQ(said_, 1);
-    const Presentation mended = at(seconds(8), 0.0);
-    EXPECT_FALSE(mended.sign || mended.advice);
-    EXPECT_TRUE(mended.caption);
+    const Presentation restored = at(seconds(8), 0.0);
+    EXPECT_FALSE(restored.sign || restored.advice);
+    EXPECT_TRUE(restored.caption);
     EXPECT_EQ(silences_, 1);
 }
 

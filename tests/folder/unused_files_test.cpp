@@ -1,4 +1,4 @@
-// Files of a curator's folder that nothing uses: which are named, and which are passed over.
+// Files of a curator's folder that nothing uses: which are named, and which are ignored.
 #include "assets_baked/folder/unused_files.h"
 #include "tests/base/temporary_folder.h"
 
@@ -25,7 +25,7 @@ TEST_F(UnusedFiles, OnlyThoseThatNothingNamesAreNamed) {
     EXPECT_TRUE(unused_files(folder / "nowhere", used).empty());
 }
 
-TEST_F(UnusedFiles, HiddenFilesAndWhatABakeWritesArePassedOver) {
+TEST_F(UnusedFiles, HiddenFilesAndWhatABakeWritesAreIgnored) {
     for (const char* name :
          {"artifact.toml", ".DS_Store", "._vase.obj", "Thumbs.db", "desktop.ini", "vase.fspack",
           "vase.fspack.minisig", "vase.preview.html", "vase.fspack.part123"}) {

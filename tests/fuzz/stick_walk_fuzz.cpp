@@ -56,8 +56,8 @@ void require_pack(const std::string& path) {
     fuzz::require(path.find('/', slash == std::string::npos ? 0 : slash + 1) == std::string::npos,
                   "packs lie one folder down at most", path);
     const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-    fuzz::require(!library::is_passed_over(name) &&
-                      (slash == std::string::npos || !library::is_passed_over(path.substr(0, slash))),
+    fuzz::require(!library::is_ignored(name) &&
+                      (slash == std::string::npos || !library::is_ignored(path.substr(0, slash))),
                   "nothing of a bin is found", path);
     fuzz::require(name.size() >= 7 && (name[name.size() - 7] == '.'), "packs are called so", path);
 }

@@ -69,18 +69,19 @@ TEST(Lens, TheFactorsOfADiscAreWithinTheirBounds) {
     for (int k = 0; k < 200; ++k) {
         const Lens lens{random.between(-0.2, 0.2), random.between(-0.2, 0.2)};
         const double r2 = random.between(0.01, 1.0);
-        const auto [least, most] = lens.factors_within(r2);
-        double seen_least = 1.0;
-        double seen_most = 1.0;
+        const auto [min_factor, max_factor] = lens.factors_within(r2);
+        double seen_min = 1.0;
+        double seen_max = 1.0;
         for (int step = 0; step <= 1000; ++step) {
             const double factor = radial_factor(r2 * step / 1000.0, lens.k1, lens.k2);
-            seen_least = std::fmin(seen_least, factor);
-            seen_most = std::fmax(seen_most, factor);
+            seen_min = std::fmin(seen_min, factor);
+            seen_max = std::fmax(seen_max, factor);
         }
-        EXPECT_NEAR(seen_least, least, 1e-6); // error k2 (r2 / 2000)^2 near the turning point, less elsewhere
-        EXPECT_NEAR(seen_most, most, 1e-6);
-        EXPECT_GE(seen_least, least - 1e-15);
-        EXPECT_LE(seen_most, most + 1e-15);
+        EXPECT_NEAR(seen_min, min_factor,
+                    1e-6); // error k2 (r2 / 2000)^2 near the turning point, less elsewhere
+        EXPECT_NEAR(seen_max, max_factor, 1e-6);
+        EXPECT_GE(seen_min, min_factor - 1e-15);
+        EXPECT_LE(seen_max, max_factor + 1e-15);
     }
 }
 

@@ -11,9 +11,9 @@
 namespace frustumscreen::guidance {
 namespace {
 
-struct Mended {
+struct Restored {
     int cases = 0;  ///< situations in which a seen face is not lit
-    int within = 0; ///< of them, those that the advice mends within its steps
+    int within = 0; ///< of them, those that the advice restores within its steps
     int waits = 0;
     [[nodiscard]] double share() const { return within / static_cast<double>(cases); }
 };
@@ -23,10 +23,10 @@ bool every_seen_face_is_lit(const FaceReader& reader, const GuidedState& tracked
 }
 
 /// The visitor carries out each move well and asks again after it.
-Mended follow(const std::string& name, const GuidanceSetup& setup, int situations) {
+Restored follow(const std::string& name, const GuidanceSetup& setup, int situations) {
     const FaceReader reader(setup);
     bench::Seeded seeded(41);
-    Mended mended;
+    Restored restored;
     for (int k = 0; k < situations; ++k) {
         GuidedState tracked_state = bench::seeded_situation(setup, seeded);
         Advisor advisor(setup);
@@ -35,29 +35,29 @@ Mended follow(const std::string& name, const GuidanceSetup& setup, int situation
         if (!advice) {
             continue;
         }
-        ++mended.cases;
-        mended.waits += advice->move.action == Action::Wait ? 1 : 0;
+        ++restored.cases;
+        restored.waits += advice->move.action == Action::Wait ? 1 : 0;
         for (int left = advice->steps; left > 0 && advice; --left) {
             tracked_state = after(advice->move, setup, tracked_state);
             advice = advisor.advise(tracked_state);
         }
-        mended.within += every_seen_face_is_lit(reader, tracked_state) ? 1 : 0;
+        restored.within += every_seen_face_is_lit(reader, tracked_state) ? 1 : 0;
     }
     std::printf("%s: mended within the steps named %d of %d (%.1f %%), %d to wait\n", name.c_str(),
-                mended.within, mended.cases, 100.0 * mended.share(), mended.waits);
-    return mended;
+                restored.within, restored.cases, 100.0 * restored.share(), restored.waits);
+    return restored;
 }
 
 /// An eye sees up to three sides of an upright hexagonal prism, which no lens above it lights at many places: there no
 /// listed move helps, and the visitor has to wait. In these situations at most one in 400 of all places, heights and
 /// turns, as the prism leans or upright, makes the picture whole, and in one of ten none does: a hand does not meet them.
-TEST(SolidAdvice, MendsNearlyAllSituationsWithinItsStepsAndFewerOfAPrism) {
+TEST(SolidAdvice, RestoresNearlyAllSituationsWithinItsStepsAndFewerOfAPrism) {
     constexpr int situations = 150;
-    const Mended cube = follow("cube of the settings", cube_setup(), situations);
+    const Restored cube = follow("cube of the settings", cube_setup(), situations);
     EXPECT_GT(cube.share(), 0.98);
     for (const auto& [name, min_share] : {std::pair("cube", 0.98), std::pair("hexagon", 0.90),
                                           std::pair("tetrahedron", 0.98), std::pair("gem", 0.98)}) {
-        const Mended solid = follow(name, solid_setup(name), situations);
+        const Restored solid = follow(name, solid_setup(name), situations);
         EXPECT_GT(solid.cases, situations / 3) << name;
         EXPECT_GE(solid.share(), min_share) << name;
         EXPECT_GE(solid.within, 0.98 * (solid.cases - solid.waits))

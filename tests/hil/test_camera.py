@@ -24,7 +24,7 @@ FAULTS = (  # the mock's fault, words of the report
 TOLD_S = 10.0
 BACK_S = 2.0  # from the time that the kernel has the camera to good frames
 SAID, FOUND = "/run/hil/camera.err", "/run/hil/camera.json"
-MOST_WRITTEN = 20_000  # bytes: the report, and a line for each change
+MAX_WRITTEN = 20_000  # bytes: the report, and a line for each change
 
 
 class Watching:
@@ -138,7 +138,7 @@ class Camera(HilTest):
         mapped = self.bench.machine.check(f"grep -E ' .w.s ' /proc/{process}/maps || true")
         self.assertEqual(mapped.strip(), "")
         books = dict(line.split(": ") for line in self.bench.machine.check(f"cat /proc/{process}/io").splitlines())
-        self.assertLess(int(books["wchar"]), MOST_WRITTEN)
+        self.assertLess(int(books["wchar"]), MAX_WRITTEN)
 
     @long
     def test_3_faults_are_told(self):

@@ -157,7 +157,7 @@ class Visitor(CameraUse):
     settings = USUAL + CAMERA + "visitor = true\n" + view.settings()
     eye_m = (0.33, -0.52, 0.48)
     looked_at_m = (0.0, 0.0, 0.07)
-    most_across_m = 0.05  # docs/visitor_eye.md: 30 mm at the 95th percentile
+    max_across_m = 0.05  # docs/visitor_eye.md: 30 mm at the 95th percentile
 
     @classmethod
     def at_first(cls):
@@ -172,7 +172,7 @@ class Visitor(CameraUse):
 
         self.sees(room_seen(self.view, body(self.eye_m, self.looked_at_m)))
         bench.status_says("eye_by", "camera")
-        picture = bench.picture_where(lambda placed: self.across_m(placed["eye_m"]) < self.most_across_m, "the visitor")
+        picture = bench.picture_where(lambda placed: self.across_m(placed["eye_m"]) < self.max_across_m, "the visitor")
         status = bench.status()
         eye = tuple(status["presented"]["eye_m"])
         print(f"  eye off by {1e3 * self.across_m(eye):.0f} mm across, {1e3 * math.dist(eye, self.eye_m):.0f} mm in all, said {status['eye_sd_mm']}",

@@ -14,7 +14,7 @@ ALIVE = "/run/frustumscreen-safe/alive"
 SHOWN_S = 15.0
 ASKED_S = 25.0  # it asks the projector for its modes every ten seconds
 WATCHDOG_S = 40.0  # WatchdogSec= and a start on a slow processor
-MOST_KIB = 16 * 1024
+MAX_KIB = 16 * 1024
 FIRST, SECOND = "The exhibit ended five times: größer – “as a test”.", "The disk is full."
 
 
@@ -85,7 +85,7 @@ class Safe(HilTest):
         self.assertEqual(self.process(), process, "it was restarted")
         peak_kib = int(machine.check(f"sed -n 's/^VmHWM:[^0-9]*\\([0-9]*\\).*/\\1/p' /proc/{process}/status"))
         print(f"  at most {peak_kib} KiB resident", flush=True)
-        self.assertLessEqual(peak_kib, MOST_KIB)
+        self.assertLessEqual(peak_kib, MAX_KIB)
 
         machine.check(f"systemctl start --no-block {UNIT}")
         self.bench.status_says("display", LIT, START_S)

@@ -22,10 +22,10 @@ import zlib
 import plain_pack
 from hostile_cases import CASES, WHOLE
 
-MOST_MIB = 64.0
-MOST_WORK_S = 2.0  # on a machine where the fixed work of slowness() takes YARDSTICK_S, as on the machine of docs/sticks.md
+MAX_MIB = 64.0
+MAX_WORK_S = 2.0  # on a machine where the fixed work of slowness() takes YARDSTICK_S, as on the machine of docs/sticks.md
 YARDSTICK_S = 0.25
-MOST_CLOCK_S = 60.0
+MAX_CLOCK_S = 60.0
 
 
 class Wrong(Exception):
@@ -88,8 +88,8 @@ def check(kiosk, case, stick):
     row = (case.__name__, len(report["packs"]), mib, work_s, clock_s, said.split("\n")[0])
     if status not in (0, 1):
         raise Wrong(f"it ended with {status}: {said[-500:]}")
-    too_much = work_s > MOST_WORK_S and case not in WHOLE and work_s > MOST_WORK_S * slowness()
-    if mib > MOST_MIB or too_much or clock_s > MOST_CLOCK_S:
+    too_much = work_s > MAX_WORK_S and case not in WHOLE and work_s > MAX_WORK_S * slowness()
+    if mib > MAX_MIB or too_much or clock_s > MAX_CLOCK_S:
         raise Wrong(f"it took {mib:.0f} MiB, {work_s:.1f} s of the processor, {clock_s:.1f} s")
     if any(letter < " " and letter != "\n" or letter == "\u202e" for letter in said):
         raise Wrong(f"what it says cannot be printed: {said}")

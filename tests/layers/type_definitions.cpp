@@ -91,7 +91,7 @@ public:
     }
 
 private:
-    /// How many tokens of `body`, which begins with a brace, are passed over after that: none in a namespace with a name.
+    /// How many tokens of `body`, which begins with a brace, are skipped after that: none in a namespace with a name.
     std::size_t enter(Tokens declaration, Tokens body) {
         const auto key = std::find(declaration.begin(), declaration.end(), "namespace");
         const Tokens name = declaration.last(static_cast<std::size_t>(declaration.end() - key));

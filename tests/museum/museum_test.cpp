@@ -9,8 +9,8 @@ namespace {
 constexpr MuseumTime noon = 12 * 3600;
 
 /// The steps against one fault that comes at noon and that a person mends five hours later.
-std::vector<watch::Step> steps_against(FaultKind fault, MuseumTime mended_after = 5 * 3600) {
-    const std::vector<FaultEvent> fault_events{{noon, fault, noon + mended_after}};
+std::vector<watch::Step> steps_against(FaultKind fault, MuseumTime restored_after = 5 * 3600) {
+    const std::vector<FaultEvent> fault_events{{noon, fault, noon + restored_after}};
     const MuseumRun run = simulate(Policy::Ladder, fault_events, 2, 1);
     std::vector<watch::Step> steps;
     for (const TakenStep& taken : run.steps) {

@@ -43,7 +43,7 @@ TEST(Attribution, SaysALicenceOnceAndAddressesByTheirHosts) {
     EXPECT_EQ(with_short_addresses("a http: //b"), "a http: //b");
 }
 
-TEST(Attribution, GoesThroughAPackAndOlderReadersPassOverIt) {
+TEST(Attribution, GoesThroughAPackAndOlderReadersIgnoreIt) {
     Pack pack = samples::pack();
     const ScanRights rights{"CC-BY-4.0", "Jo Fox", "https://example.org/jar"};
     put_scan_rights(pack, rights);

@@ -75,7 +75,7 @@ TEST(Sections, the_manifest_has_those_of_the_format_page) {
         << "a pack without any has none";
 }
 
-TEST(Sections, one_that_nobody_knows_is_passed_over_and_its_parts_are_checked) {
+TEST(Sections, one_that_nobody_knows_is_ignored_and_its_parts_are_checked) {
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     entries.parts.push_back({"relief_blocks/0.bin", samples::some_bytes("to come")});
     entries.manifest["parts"].push_back({{"name", "relief_blocks/0.bin"}, {"bytes", 0}, {"sha256", ""}});

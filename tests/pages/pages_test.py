@@ -127,8 +127,8 @@ class Zone(unittest.TestCase):
 
     def test_the_wide_zone_is_as_wide_as_promised(self):
         whole = self.lit_zone("wide.toml")["whole"]
-        for half, least_m in zip(whole["all_eyes"]["rectangle_half_m"], (0.5, 0.25)):
-            self.assertGreaterEqual(2 * half, least_m)
+        for half, min_m in zip(whole["all_eyes"]["rectangle_half_m"], (0.5, 0.25)):
+            self.assertGreaterEqual(2 * half, min_m)
         self.assertGreaterEqual(whole["artifact_m"][2], 0.12)
         shipped, wide = self.size_cm("kiosk.toml"), self.size_cm("wide.toml")
         for name, promised in (("docs/guide/build.md", f"| {shipped} | {wide} |"), ("docs/designers.md", f"the first is {wide} "),

@@ -11,7 +11,7 @@ import statistics
 
 LIMITS = {"memory_mb_per_h": 1.0, "longest_dark_s": 60.0, "false_alarms": 0, "not_back": 0, "unexpected_ends": 0}
 WARM_UP_S = 60.0  # in which a process loads and fills its caches; not counted
-LEAST_SPAN_S = 1200.0  # of one process after that; in a shorter span, a single step (a language's texts are loaded) looks like a slope
+MIN_SPAN_S = 1200.0  # of one process after that; in a shorter span, a single step (a language's texts are loaded) looks like a slope
 LATER_S = 90.0  # so long after a fault, an event may still be due to it
 Z95 = 1.96
 
@@ -53,7 +53,7 @@ def slope(samples, value, pid, pace):
         return {"verdict": "too few samples"}
     per_h = [number / pace for number in found]
     verdict = "holds" if per_h[2] <= LIMITS["memory_mb_per_h"] else "missed" if per_h[1] > LIMITS["memory_mb_per_h"] else "too short to say"
-    if max(3600.0 * (run[-1][0] - run[0][0]) for run in runs) < LEAST_SPAN_S:
+    if max(3600.0 * (run[-1][0] - run[0][0]) for run in runs) < MIN_SPAN_S:
         verdict = "too short to say"
     return {"mb_per_exhibit_h": per_h[0], "low": per_h[1], "high": per_h[2], "mb_per_h_passed": found[0], "verdict": verdict}
 

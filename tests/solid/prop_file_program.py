@@ -89,7 +89,7 @@ def random_hull(random, trial):
             return hull, normals
 
 
-def least_width(hull):
+def min_width(hull):
     points = hull.points[hull.vertices]
     differences = (points[:, None] - points).reshape(-1, 3)
     return -ConvexHull(differences).equations[:, 3].max()
@@ -129,7 +129,7 @@ class PropFile(unittest.TestCase):
             report = json.loads(done.stdout)
             self.assertEqual([face["name"] for face in report["faces"]], [f"F{k + 1}" for k in range(len(normals))])
             self.assertAlmostEqual(report["volume_cm3"] / (hull.volume / 1000), 1, delta=2e-6)
-            self.assertAlmostEqual(report["least_width_mm"], least_width(hull), delta=1e-3)
+            self.assertAlmostEqual(report["least_width_mm"], min_width(hull), delta=1e-3)
             for face in report["faces"]:
                 self.assertGreater(np.max(normals @ face["normal"]), 1 - 1e-9)
             self.assertEqual(sum(len(face["corners_mm"]) for face in report["faces"]),

@@ -118,7 +118,7 @@ TEST(LibusbTransport, AnErrorOfOneDeviceIsNoneOfUsb) {
     EXPECT_TRUE(make_libusb_bus()->find({}));
 }
 
-TEST(LibusbTransport, APlaceIsPassedOverOnEveryBus) {
+TEST(LibusbTransport, APlaceIsSkippedOnEveryBus) {
     UsbPorts ports;
     ports.plug(2, "good");
     ports.plug(3, "good");

@@ -273,7 +273,7 @@ TEST(PacketFile, WhatIsNoRecordingIsRefusedInPlainWords) {
               std::string::npos);
 }
 
-TEST(PacketFile, PacketsOfALaterVersionArePassedOverAndTimeNeverGoesBack) {
+TEST(PacketFile, PacketsOfALaterVersionAreSkippedAndTimeNeverGoesBack) {
     Bytes file;
     append_packet_header(file);
     append_packet(file, {PacketKind::State, from_microseconds(50), {}});

@@ -101,7 +101,7 @@ TEST(PatriotCodec, AFrameLostFromAnyByteOnIsFollowedByGoodOnesAgain) {
     }
 }
 
-TEST(PatriotCodec, GarbageInFrontIsPassedOver) {
+TEST(PatriotCodec, GarbageInFrontIsSkipped) {
     std::mt19937 engine(3);
     for (int length = 1; length < 300; ++length) {
         Wire stream;

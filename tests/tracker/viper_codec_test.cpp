@@ -106,7 +106,7 @@ TEST(ViperCodec, AFrameLostFromAnyByteOnCostsOnlyItself) {
     }
 }
 
-TEST(ViperCodec, GarbageInFrontIsPassedOver) {
+TEST(ViperCodec, GarbageInFrontIsSkipped) {
     std::mt19937 engine(3);
     for (int length = 1; length < 300; ++length) {
         Wire stream;

@@ -14,7 +14,7 @@ import tempfile
 import time
 
 PROGRAM = sys.argv[1]
-MOST_RESIDENT_KIB = 8 * 1024
+MAX_RESIDENT_KIB = 8 * 1024
 FORBIDDEN = ("libGL", "libEGL", "libgbm", "libusb", "libhidapi", "libsodium", "libzip", "libdrm")
 
 
@@ -52,7 +52,7 @@ def main():
             assert reason.startswith("the exhibit's program ends again and again: it ended with an error (exited 1); "), reason
             size = resident_kib(process.pid)
             print(f"{size['VmRSS']} KiB resident, {size['VmLck']} KiB may be locked")
-            assert size["VmRSS"] <= MOST_RESIDENT_KIB and size["Threads"] == 1, size
+            assert size["VmRSS"] <= MAX_RESIDENT_KIB and size["Threads"] == 1, size
         finally:
             process.terminate()
             assert process.wait(10.0) == 0

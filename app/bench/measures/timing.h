@@ -39,7 +39,7 @@ template <typename Draw> [[nodiscard]] double ms_of(const Draw& draw) {
     return cpu_now_ms() - start_ms;
 }
 /// `min_ms`: a frame's least time of several passes, first infinite.
-template <typename Draw> void keep_least_ms(double& min_ms, const Draw& draw) {
+template <typename Draw> void keep_min_ms(double& min_ms, const Draw& draw) {
     min_ms = std::min(min_ms, ms_of(draw));
 }
 

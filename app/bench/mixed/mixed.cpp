@@ -26,7 +26,7 @@ void time_pass(MixedTechnique& technique, const std::vector<BenchPose>& walk, st
     min_ms.resize(walk.size(), std::numeric_limits<double>::infinity());
     technique.begin();
     for (std::size_t frame = 0; frame < walk.size(); ++frame) {
-        keep_least_ms(min_ms[frame], [&] { technique.draw(frame, walk[frame]); });
+        keep_min_ms(min_ms[frame], [&] { technique.draw(frame, walk[frame]); });
     }
 }
 

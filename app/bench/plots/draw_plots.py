@@ -126,8 +126,8 @@ def error_time_panels(rows, title, limits):
     set_up = rows[0]["set_up"]
     title = textwrap.shorten(title, LONGEST_TITLE, placeholder=" ...")
     panels = []
-    for name, unit, error, least, limit in ERRORS:
-        panel = Panel(f"{name}: {title}, {set_up} set-up", COST, unit, y_least=least)
+    for name, unit, error, min_error, limit in ERRORS:
+        panel = Panel(f"{name}: {title}, {set_up} set-up", COST, unit, y_min=min_error)
         panel.series = [series for kind in FAMILIES for series in family_series(rows, kind, error)]
         panel.limits = [(float(row[limit]), f"{row['level']}'s limit")
                         for row in limits if row["level"] in DRAWN_LIMITS]
@@ -163,8 +163,8 @@ def draw_two_pass(path):
 
 
 def overall_panel(artifacts, set_up, measure):
-    name, unit, error, least, _ = measure
-    panel = Panel(f"{name}, {set_up} set-up", COST, unit, corner="better ↙", y_least=least)
+    name, unit, error, min_error, _ = measure
+    panel = Panel(f"{name}, {set_up} set-up", COST, unit, corner="better ↙", y_min=min_error)
     lines, members = [], []
     for kind, family in FAMILIES.items():
         found = [[point[:2] for point in points_of(rows, kind, f"mean_{error}")] for rows in artifacts]
@@ -228,14 +228,14 @@ def draw_latency(path):
 
 def draw_step_error(path):
     rows = read_table(path)
-    least = 1e-18  # an exact zero has no place on a logarithmic axis
+    min_error = 1e-18  # an exact zero has no place on a logarithmic axis
     smoothers = Panel("A smoother's error against its step (no error at all: 1e-18)", "step / time constant",
                       "error of the step response, of 1", limits=[(1.0, "all of it")])
     program = Panel("The program's dynamics against the step between frames", "step, s", "error")
     for panel, unit in ((smoothers, "time constants"), (program, "s")):
         own = [row for row in rows if row["step_unit"] == unit]
         for k, what in enumerate(different(row["what"] for row in own)):
-            points = [(float(row["step"]), max(float(row["error"]), least)) for row in own if row["what"] == what]
+            points = [(float(row["step"]), max(float(row["error"]), min_error)) for row in own if row["what"] == what]
             panel.series.append(Series(what, points, k))
     save_column(path.with_suffix(".svg"), [smoothers, program])
 

@@ -27,8 +27,8 @@ def window_cost(rows, triangles, technique):
     """Milliseconds that one more window costs."""
     own = {int(row["windows"]): float(row["ms_p50"]) for row in rows
            if row["triangles"] == triangles and row["technique"] == technique}
-    most = max(own)
-    return (own[most] - own[0]) / most
+    max_windows = max(own)
+    return (own[max_windows] - own[0]) / max_windows
 
 
 def windows_panel(rows, triangles):

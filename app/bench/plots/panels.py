@@ -64,7 +64,7 @@ class Panel:
     limits: list = field(default_factory=list)  # (y, label): a horizontal line that values should not pass
     log: bool = True  # both axes
     corner: str = ""  # words in the lower left corner
-    y_least: float = 0.0  # if above 0, the lower end of the axis; points below it are drawn at that end
+    y_min: float = 0.0  # if above 0, the lower end of the axis; points below it are drawn at that end
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,8 @@ ON_SHEET = Frame(520, 430, 72, 18)
 
 def number(value):
     """The text of a number beside a tick."""
-    for least, size, unit in ((1e6, 1e6, "M"), (1e4, 1e3, "k")):
-        if abs(value) >= least:
+    for min_size, size, unit in ((1e6, 1e6, "M"), (1e4, 1e3, "k")):
+        if abs(value) >= min_size:
             return f"{value / size:g}{unit}"
     if 0 < abs(value) < 1e-3:
         exponent = math.floor(math.log10(abs(value)) + 1e-9)
@@ -97,7 +97,7 @@ def shown(series, panel):
     """The points that the axes can show: [(x, y, label)]."""
     points = []
     for x, y, *label in series.points:
-        y = max(y, panel.y_least) if panel.y_least > 0 and not math.isnan(y) else y
+        y = max(y, panel.y_min) if panel.y_min > 0 and not math.isnan(y) else y
         if math.isfinite(x) and math.isfinite(y) and (not panel.log or x > 0 and y > 0):
             points.append((x, y, label[0] if label else ""))
     return points
@@ -111,22 +111,22 @@ def log_ticks(decades):
     return LogLocator(10, digits, numticks=15)
 
 
-def settle(axis, values, log, least):
+def settle(axis, values, log, min_value):
     """Sets the ticks of an axis and their texts, and returns the ends of the axis, a little beyond the values."""
     low, high = (min(values), max(values)) if values else (1.0, 10.0)
     if log:
         low, high = math.log10(low), math.log10(high)
         room = max(0.06 * (high - low), 0.02) if high > low else 0.3
-        low = max(low - room, math.log10(least)) if least > 0 else low - room
+        low = max(low - room, math.log10(min_value)) if min_value > 0 else low - room
         ends = 10**low, 10**(high + room)
         axis.set_major_locator(log_ticks(high + room - low))
     else:
         ends = min(low, 0.0), high + (0.06 * (high - min(low, 0.0)) or 1.0)
         axis.set_major_locator(MaxNLocator(6, steps=(1, 2, 5, 10)))
     axis.set_minor_locator(NullLocator())
-    at_least = least > 0 and ends[0] <= least * (1 + 1e-9)
+    ends_at_min = min_value > 0 and ends[0] <= min_value * (1 + 1e-9)
     axis.set_major_formatter(FuncFormatter(
-        lambda value, _: ("≤ " if at_least and value <= least * (1 + 1e-9) else "") + number(value)))
+        lambda value, _: ("≤ " if ends_at_min and value <= min_value * (1 + 1e-9) else "") + number(value)))
     return ends
 
 
@@ -157,7 +157,7 @@ class Drawing:
             axes.set_yscale("log")
         axes.set_xlim(settle(axes.xaxis, [x for x, _, _ in points], panel.log, 0.0))
         limits = [y for y, _ in panel.limits]
-        axes.set_ylim(settle(axes.yaxis, [y for _, y, _ in points] + limits, panel.log, panel.y_least))
+        axes.set_ylim(settle(axes.yaxis, [y for _, y, _ in points] + limits, panel.log, panel.y_min))
         axes.grid(True)
         axes.tick_params(length=3, pad=5)
         axes.set_title(panel.title)

@@ -27,7 +27,7 @@ void time_room(std::span<TimedTechnique> timed, std::span<const RoomWalk> walks,
             progress("times", static_cast<double>(static_cast<std::size_t>(pass) * timed.size() + k) / turns);
             for (RoomFrameTime& at : timed[k].times.frames) {
                 const auto start = std::chrono::steady_clock::now();
-                keep_least_ms(at.ms, [&] { timed[k].technique->draw(walks[at.walk].frames[at.frame]); });
+                keep_min_ms(at.ms, [&] { timed[k].technique->draw(walks[at.walk].frames[at.frame]); });
                 const std::chrono::duration<double, std::milli> wall =
                     std::chrono::steady_clock::now() - start;
                 at.wall_ms = pass == 0 ? wall.count() : at.wall_ms;

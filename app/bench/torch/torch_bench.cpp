@@ -130,7 +130,7 @@ private:
     }
     void time_pass(Timed& timed) {
         for (std::size_t frame = 0; frame < sweep_.size(); ++frame) {
-            keep_least_ms(timed.frame_ms[frame], [&] { timed.technique->draw(sweep_[frame], frame, false); });
+            keep_min_ms(timed.frame_ms[frame], [&] { timed.technique->draw(sweep_[frame], frame, false); });
             timed.triangles[frame] = timed.technique->lit_triangles();
         }
     }

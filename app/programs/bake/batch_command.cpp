@@ -97,7 +97,7 @@ Result<void> write_reports(const Arguments& arguments, const std::optional<Shard
               : arguments.folder.string();
     TRY_VOID(write_file(report_file(arguments, shard, "csv"), as_bytes(report_csv(rows))));
     return write_file(report_file(arguments, shard, "html"),
-                      as_bytes(report_page(rows, title, seconds, collection.passed_over)));
+                      as_bytes(report_page(rows, title, seconds, collection.skipped)));
 }
 
 /// Prints failures as they occur; the report has the rest.

@@ -37,7 +37,7 @@ struct Arguments {
 /// The scans to look at; a folder without any has its fault already.
 struct Listed {
     std::vector<CheckedScan> scans;
-    std::vector<std::string> passed_over;
+    std::vector<std::string> skipped;
     bool is_table = false;
 };
 
@@ -58,8 +58,7 @@ void list_folder(const fs::path& folder, Listed& listed) {
         listed.scans.emplace_back().input =
             object.input; // one that a batch refuses for its name can be baked alone
     }
-    listed.passed_over.insert(listed.passed_over.end(), collection->passed_over.begin(),
-                              collection->passed_over.end());
+    listed.skipped.insert(listed.skipped.end(), collection->skipped.begin(), collection->skipped.end());
     if (collection->objects.empty()) {
         listed.scans.push_back(faulty(
             folder, {ErrorKind::BadInput, "check.no_scan",
@@ -99,7 +98,7 @@ void look_at_all(std::vector<CheckedScan>& scans, const BakeArguments& bake) {
 void print(const Listed& listed, bool as_json) {
     if (as_json) {
         nlohmann::ordered_json json = check_json(listed.scans);
-        json["passed_over"] = listed.passed_over;
+        json["passed_over"] = listed.skipped;
         fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         return;
     }
@@ -111,8 +110,8 @@ void print(const Listed& listed, bool as_json) {
         return;
     }
     fmt::print("{}", check_table(listed.scans));
-    if (!listed.passed_over.empty()) {
-        fmt::print("Skipped folders without an artifact.toml: {}\n", fmt::join(listed.passed_over, ", "));
+    if (!listed.skipped.empty()) {
+        fmt::print("Skipped folders without an artifact.toml: {}\n", fmt::join(listed.skipped, ", "));
     }
 }
 

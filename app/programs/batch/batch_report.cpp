@@ -126,7 +126,7 @@ std::string report_csv(std::span<const BatchRow> rows) {
 }
 
 std::string report_page(std::span<const BatchRow> rows, std::string_view title, double seconds,
-                        std::span<const std::string> passed_over) {
+                        std::span<const std::string> skipped) {
     std::string lines;
     for (const bool good : {false, true}) { // rows that need attention come first
         for (const BatchRow& row : rows) {
@@ -137,10 +137,10 @@ std::string report_page(std::span<const BatchRow> rows, std::string_view title, 
     for (const ScanColumn& column : scan_columns()) {
         headings += fmt::format("<th{}>{}</th>", column.is_text ? " class=\"text\"" : "", column.heading);
     }
-    const std::string over = passed_over.empty()
+    const std::string over = skipped.empty()
                                  ? std::string()
                                  : fmt::format("<p>Skipped folders without an artifact.toml: {}</p>\n",
-                                               xml_text(fmt::format("{}", fmt::join(passed_over, ", "))));
+                                               xml_text(fmt::format("{}", fmt::join(skipped, ", "))));
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src {}\">\n"

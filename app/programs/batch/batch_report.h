@@ -13,9 +13,9 @@
 namespace frustumscreen::programs {
 
 [[nodiscard]] std::string report_csv(std::span<const BatchRow> rows);
-/// `seconds`: duration of the run; `passed_over`: folders without anything to bake.
+/// `seconds`: duration of the run; `skipped`: folders without anything to bake.
 [[nodiscard]] std::string report_page(std::span<const BatchRow> rows, std::string_view title, double seconds,
-                                      std::span<const std::string> passed_over);
+                                      std::span<const std::string> skipped);
 
 /// Number of rows with this status.
 [[nodiscard]] std::size_t count_of(std::span<const BatchRow> rows, BatchStatus status);

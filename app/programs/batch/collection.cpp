@@ -38,7 +38,7 @@ void add(const fs::directory_entry& entry, Collection& collection) {
         if (fs::exists(entry.path() / folder::artifact_file_name, none)) {
             collection.objects.push_back({name.string(), entry.path(), {}});
         } else {
-            collection.passed_over.push_back(name.string());
+            collection.skipped.push_back(name.string());
         }
     } else if (entry.is_regular_file(none) && is_scan(name)) {
         collection.objects.push_back({name.stem().string(), entry.path(), {}});
@@ -96,7 +96,7 @@ Result<Collection> list_collection(const fs::path& folder, const fs::path& outpu
     std::sort(collection.objects.begin(), collection.objects.end(), [](const auto& a, const auto& b) {
         return std::pair(a.name, a.input.string()) < std::pair(b.name, b.input.string());
     });
-    std::sort(collection.passed_over.begin(), collection.passed_over.end());
+    std::sort(collection.skipped.begin(), collection.skipped.end());
     refuse_twins(collection.objects);
     refuse_reports(collection.objects);
     return collection;

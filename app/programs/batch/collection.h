@@ -21,8 +21,8 @@ struct BatchObject {
 };
 
 struct Collection {
-    std::vector<BatchObject> objects;     ///< sorted by name, bytewise
-    std::vector<std::string> passed_over; ///< folders without an artifact.toml
+    std::vector<BatchObject> objects; ///< sorted by name, bytewise
+    std::vector<std::string> skipped; ///< folders without an artifact.toml
 };
 
 /// Ignores hidden folders and files, and `output`, which may be inside `folder`.

@@ -90,7 +90,7 @@ private:
     }
     void wait() {
         if (devices_.is_headless() && !callbacks_.with_camera) {
-            devices_.pass_over(callbacks_.between_rounds);
+            devices_.skip(callbacks_.between_rounds);
         } else {
             std::this_thread::sleep_for(callbacks_.between_rounds);
         }

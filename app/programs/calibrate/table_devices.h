@@ -40,8 +40,8 @@ public:
 
     [[nodiscard]] bool is_headless() const { return headless_; }
     /// The system's time plus the skipped time.
-    [[nodiscard]] MonotonicTime now() const { return monotonic_now() + passed_over_; }
-    void pass_over(Nanoseconds time) { passed_over_ += time; }
+    [[nodiscard]] MonotonicTime now() const { return monotonic_now() + skipped_; }
+    void skip(Nanoseconds time) { skipped_ += time; }
 
     /// The input since the last call: the latest reports, and presses.
     [[nodiscard]] calibration::CalibrationInput hear(MonotonicTime now);
@@ -66,7 +66,7 @@ public:
 
 private:
     bool headless_;
-    Nanoseconds passed_over_{0};
+    Nanoseconds skipped_{0};
     service::StopSignals stop_;
     service::ServiceManager manager_;
     std::optional<MonotonicTime> fed_;

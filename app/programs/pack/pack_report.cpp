@@ -243,7 +243,7 @@ std::string title_line(const OpenedPack& opened) {
                        in_units(opened.file_bytes), signature);
 }
 
-bool is_passed_over(const pack::PackSection& section) {
+bool is_ignored(const pack::PackSection& section) {
     constexpr std::array<std::string_view, 10> known{"attribution", "texts",        "sounds", "relief_blocks",
                                                      "seen_errors", "seen_reliefs", "cells",  "behaviours",
                                                      "torches",     "states"};
@@ -253,7 +253,7 @@ bool is_passed_over(const pack::PackSection& section) {
 std::string sections_text(const pack::Pack& pack) {
     std::string text;
     for (const pack::PackSection& section : pack.sections) {
-        if (!is_passed_over(section)) {
+        if (!is_ignored(section)) {
             continue;
         }
         text += fmt::format("  section {}: unknown to this version and ignored, {} parts\n", section.name,

@@ -1,6 +1,6 @@
 /// PNG pictures of any depth.
 ///
-/// Colour   codes as stored: notes of gamma and profiles are passed over.
+/// Colour   codes as stored: gamma and profile chunks are ignored.
 /// Memory   the shrunk picture and one row; an interlaced picture lies in memory whole before it is shrunk.
 /// Errors   damaged or truncated; more than `limit_texels` after shrinking, or of an interlaced picture.
 /// Threads  pure; any.

@@ -20,7 +20,7 @@ namespace frustumscreen::bake {
 namespace {
 
 /// True for keywords without effect on the picture, and for those of curves, which `curv` and `surf` report.
-bool is_passed_over(std::string_view keyword) {
+bool is_ignored(std::string_view keyword) {
     static constexpr std::array keywords = {"",           "g",         "o",     "s",     "mg",     "vp",
                                             "cstype",     "deg",       "bmat",  "step",  "parm",   "trim",
                                             "hole",       "scrv",      "sp",    "end",   "con",    "bevel",
@@ -152,7 +152,7 @@ private:
             material_ = trimmed(words.rest_of_line());
         } else if (keyword == "mtllib") {
             materials_.read_libraries(trimmed(words.rest_of_line()), fmt::format("line {}: mtllib", line_));
-        } else if (!is_passed_over(keyword)) {
+        } else if (!is_ignored(keyword)) {
             unknown_.insert(std::string(keyword.substr(0, 40)));
         }
     }

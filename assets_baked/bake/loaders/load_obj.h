@@ -3,7 +3,7 @@
 ///
 /// Numbers  after x y z that are not read are lost, if they could change the picture: a fourth other than 1 (a weight),
 ///          two, more than four, an alpha that is not opaque. The third number of a texture coordinate is a depth, which
-///          a picture does not have: it is passed over.
+///          a picture does not have: it is ignored.
 /// Frame    the file's; up is y. v is flipped: 0 at the picture's top row.
 /// Colour   of materials: obj_materials.h. Vertex colours are sRGB in 0..1, or in 0..255 if one of the file's is above
 ///          1.

@@ -277,7 +277,7 @@ class Panels(Plots):
         self.assertLess(max(map(len, lines)) * 6.5, svg.width())
 
     def test_what_lies_below_the_least_of_the_axis_is_drawn_there(self):
-        panel = Panel("t", "x", "y", [Series("s", [(1, 1), (2, 0.001), (3, 1e-7), (4, 0)])], y_least=0.001)
+        panel = Panel("t", "x", "y", [Series("s", [(1, 1), (2, 0.001), (3, 1e-7), (4, 0)])], y_min=0.001)
         svg = self.drawn([panel])
         self.assert_at(svg, 0, "s", [(1, 1), (2, 0.001), (3, 0.001), (4, 0.001)])
         self.assertIn("≤ 0.001", svg.texts())

@@ -46,7 +46,7 @@ class HidTracker(Tracker):
     endpoints = (Endpoint(IN | 1, INTERRUPT, 64, 1),)
     strings = ("", "FrustumScreen", "HID tracker for FrustumScreen (mock)", "mock")
     report_descriptor = _REPORT_DESCRIPTOR
-    most_waiting = 8
+    max_waiting = 8
     rate_hz = 120.0
 
     def __init__(self, *args, **kwargs):

@@ -127,7 +127,7 @@ class Tracker(UsbDevice):
         if self.endpoints[0].kind == BULK:
             self.answer(data * count)
         else:  # at most as many reports as the device keeps for a host
-            for _ in range(min(count, self.most_waiting)):
+            for _ in range(min(count, self.max_waiting)):
                 self.answer(data)
 
     # The descriptors.

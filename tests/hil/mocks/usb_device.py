@@ -48,7 +48,7 @@ class UsbDevice:
     endpoints = ()
     strings = ("", "", "", "")  # by index: none, maker, product, serial number
     report_descriptor = b""  # HID only
-    most_waiting = 32  # transfers that are kept for a host that does not read; beyond that the oldest are lost
+    max_waiting = 32  # transfers that are kept for a host that does not read; beyond that the oldest are lost
 
     def __init__(self):
         self.link = None
@@ -94,7 +94,7 @@ class UsbDevice:
     def send(self, endpoint, data):
         """Sends to the host, as one transfer."""
         queue = self.waiting[endpoint]
-        if len(queue) >= self.most_waiting:
+        if len(queue) >= self.max_waiting:
             queue.popleft()
             self.discarded += 1
         queue.append(data)

@@ -53,9 +53,9 @@ def _intervals(format_, size):
 class _Control:
     """length, minimum, maximum, step, default."""
 
-    def __init__(self, length, least, most, step, default):
+    def __init__(self, length, min_value, max_value, step, default):
         self.length, self.default = length, default
-        self.answers = {_GET_MIN: least, _GET_MAX: most, _GET_RES: step, _GET_DEF: default}
+        self.answers = {_GET_MIN: min_value, _GET_MAX: max_value, _GET_RES: step, _GET_DEF: default}
 
 
 _CONTROLS = {
@@ -116,7 +116,7 @@ class UvcCamera(UsbDevice):
     interfaces = ((_CONTROL_INTERFACE, 0x0E, 1, 0), (_STREAM_INTERFACE, 0x0E, 2, 0))
     endpoints = (Endpoint(STREAM, BULK, 512),)
     strings = ("", "FrustumScreen mock", "Mock Camera", "mock")
-    most_waiting = 64
+    max_waiting = 64
 
     def __init__(self, seed=1):
         super().__init__()

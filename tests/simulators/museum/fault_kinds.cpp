@@ -47,9 +47,9 @@ std::vector<FaultEvent> seeded_faults(std::uint64_t seed, int days, double times
             }
             // Faults that need no person are also mended by one in the end, who is called when the table
             // stays dark.
-            const double mended_at = at + (kinds[k].lasts_days > 0.0 ? lasts_s : 3.0 * museum_day);
-            fault_events.push_back(
-                {static_cast<MuseumTime>(at), static_cast<FaultKind>(k), static_cast<MuseumTime>(mended_at)});
+            const double restored_at = at + (kinds[k].lasts_days > 0.0 ? lasts_s : 3.0 * museum_day);
+            fault_events.push_back({static_cast<MuseumTime>(at), static_cast<FaultKind>(k),
+                                    static_cast<MuseumTime>(restored_at)});
         }
     }
     std::sort(fault_events.begin(), fault_events.end(),

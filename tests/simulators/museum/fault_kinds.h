@@ -57,7 +57,7 @@ struct FaultKindInfo {
 struct FaultEvent {
     MuseumTime at = 0;
     FaultKind fault = FaultKind::Crash;
-    MuseumTime mended_at = 0; ///< by a person, at the latest
+    MuseumTime restored_at = 0; ///< by a person, at the latest
 };
 /// Ascending in time; `times`: factor of the usual rates.
 [[nodiscard]] std::vector<FaultEvent> seeded_faults(std::uint64_t seed, int days, double times = 1.0);

@@ -119,7 +119,7 @@ void KioskModel::live(MuseumTime now) {
 }
 
 std::optional<watch::Outcome> KioskModel::pass(MuseumTime now) {
-    std::erase_if(fault_events_, [&](const FaultEvent& each) { return each.mended_at <= now; });
+    std::erase_if(fault_events_, [&](const FaultEvent& each) { return each.restored_at <= now; });
     if (is_booting(now)) {
         return std::nullopt;
     }
