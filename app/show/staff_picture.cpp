@@ -152,7 +152,7 @@ private:
                 "calibration, visits and packs can then be copied to it.");
             break;
         case exhibit::CopyStage::Looking:
-            add("A stick is being looked through.");
+            add("A stick is being checked.");
             break;
         case exhibit::CopyStage::NoRequest:
             add("The stick does not wait for a copy. Make an empty file frustumscreen-request.toml on it, "

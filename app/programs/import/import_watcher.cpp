@@ -24,7 +24,7 @@ double share_of(const library::ImportReport& report) {
 std::string line_of(const library::ImportReport& report) {
     switch (report.stage) {
     case library::ImportStage::Found:
-        return "a stick is looked through";
+        return "a stick is being checked";
     case library::ImportStage::Copying: // each byte is copied, then checked
         return fmt::format("{:.1f} MB are copied and checked",
                            static_cast<double>(report.total_bytes) / 2.0 / bytes_per_mb);
