@@ -11,6 +11,9 @@ chmod 1777 "$TMPDIR" # some tests act as another user
 # Freed memory stays with the process (mallopt(3)). Otherwise tests that draw and fit spend up to a fifth of their time on getting the
 # same pages from the kernel again, zeroed.
 export MALLOC_TRIM_THRESHOLD_=1000000000 MALLOC_MMAP_THRESHOLD_=1000000000
+# espeak-ng connects to PulseAudio even where it writes to a pipe, and the library makes a folder for that. Where no session has one, it
+# lies in TMPDIR, and its name in the home folder of the user: the first such test on a new machine would leave it.
+export PULSE_RUNTIME_PATH=$TMPDIR/pulse
 export PATH=/usr/bin:/bin:$PATH # for Debian's Python; another one may lack its modules, and may start ten times slower
 name=$1
 shift
@@ -18,6 +21,7 @@ read -ra under <<<"${FRUSTUMSCREEN_UNDER-}"
 unset FRUSTUMSCREEN_UNDER
 "$(dirname "${BASH_SOURCE[0]}")/../../cmake/timed" test "$name" "${under[@]}" "$@"
 status=$?
+rmdir "$PULSE_RUNTIME_PATH" 2>/dev/null
 left=$(cd "$TMPDIR" && find . -mindepth 1 -maxdepth 2)
 rm -rf "$TMPDIR"
 if [[ -n $left ]]; then
