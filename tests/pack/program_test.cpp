@@ -43,14 +43,14 @@ protected:
 
 } // namespace
 
-TEST_F(Program, verify_tells_sound_packs_from_others) {
+TEST_F(Program, verify_tells_intact_packs_from_others) {
     const Outcome good = pack_program("verify good.fspack");
     EXPECT_EQ(good.status, 0);
     EXPECT_EQ(good.out.find("good.fspack: intact, unsigned"), 0U) << good.out;
     EXPECT_EQ(good.error, "");
     const Outcome both = pack_program("verify bad.fspack good.fspack");
     EXPECT_EQ(both.status, 1);
-    EXPECT_NE(both.out.find("good.fspack: sound"), std::string::npos);
+    EXPECT_NE(both.out.find("good.fspack: intact"), std::string::npos);
     EXPECT_EQ(both.error.find("frustumscreen-pack: bad.fspack: "), 0U) << both.error;
     EXPECT_EQ(std::count(both.error.begin(), both.error.end(), '\n'), 1);
 }
@@ -63,7 +63,7 @@ TEST_F(Program, wrong_use_ends_with_status_2) {
     EXPECT_EQ(pack_program("--version").status, 0);
 }
 
-TEST_F(Program, list_and_explain_refuse_what_is_not_sound) {
+TEST_F(Program, list_and_explain_refuse_damaged_packs) {
     EXPECT_EQ(pack_program("list bad.fspack").status, 1);
     EXPECT_EQ(pack_program("explain bad.fspack --json").status, 1);
     EXPECT_EQ(pack_program("explain nowhere.fspack").status, 1);

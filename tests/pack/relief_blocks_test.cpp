@@ -120,7 +120,7 @@ TEST(ReliefBlocks, a_damaged_part_is_refused) {
         {with(good, first_grid, std::uint32_t{6}), "number 6"},
         {with(good, first_grid, std::uint32_t{4}), "number 4"}, // a repeated direction
         {with(good, first_grid + 4, std::uint32_t{4}), "more than"},
-        {with(good, first_grid + 4, std::uint32_t{0}), "together"},
+        {with(good, first_grid + 4, std::uint32_t{0}), "in all, it has"},
         {with(good, first_grid + 8, 1e30), "[blocks.origin]"},
         {with(good, columns, std::uint16_t{9}), "[blocks.outside_grid]"},
         {with(good, numbers, no_number), "block 0"},
