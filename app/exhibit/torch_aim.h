@@ -54,7 +54,7 @@ struct TorchSpot {
     /// The corners of the rectangle around it: top left, top right, bottom right, bottom left for a reader at the torch.
     [[nodiscard]] std::array<glm::dvec2, 4> corners() const;
 };
-/// Nothing if the beam's edge does not come down onto the table.
+/// Empty if the edge of the beam does not meet the table.
 [[nodiscard]] std::optional<TorchSpot> spot_on_table(const torch::Beam& beam,
                                                      const geometry::RigidTransform& table_from_torch);
 

@@ -108,7 +108,7 @@ enum class CameraHealth : std::uint8_t {
     }
 }
 
-/// Unlocked counts as Well: a camera without locks is built that way, and nobody can change it.
+/// Unlocked counts as Well: a camera without locks cannot be given any.
 [[nodiscard]] constexpr DeviceCondition condition_of(CameraState state) {
     const CameraHealth health = health_of(state);
     return {health == CameraHealth::Well       ? DeviceHealth::Well
