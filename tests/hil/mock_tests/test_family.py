@@ -4,6 +4,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import time
 import unittest
 
 HIL = pathlib.Path(__file__).resolve().parent.parent
@@ -51,17 +52,28 @@ except Ended as ended:
 SOON_S = 20.0
 
 
-def sleepers(family):
-    """The processes that belong to the family, by a variable of their environment."""
+SLEEPS = {"sleep 1000", "sleep 1001", "sleep 1002"}
+
+
+def members(family):
+    """The command lines of the living processes that belong to the family, by a variable of their environment."""
     mark = f"HIL_FAMILY={family}".encode()
     found = []
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             if mark in (folder / "environ").read_bytes() and b"Z" not in (folder / "stat").read_bytes().split()[2:3]:
-                found.append(int(folder.name))
+                found.append((folder / "cmdline").read_bytes().decode().replace("\0", " ").strip())
         except OSError:
             continue
     return found
+
+
+def wait_for_sleeps(family):
+    """Waits until the shells have started their programs, which they may do after the test has printed `ready`."""
+    end = time.monotonic() + SOON_S
+    while not SLEEPS <= set(members(family)):
+        assert time.monotonic() < end, members(family)
+        time.sleep(0.01)
 
 
 class FamilyTest(unittest.TestCase):
@@ -77,10 +89,10 @@ class FamilyTest(unittest.TestCase):
 
     def assert_ended_by(self, number, program, *arguments):
         process, mark = self.started(program, *arguments)
-        self.assertGreater(len(sleepers(mark)), 3)
+        wait_for_sleeps(mark)
         process.send_signal(number)
         self.assertEqual(process.wait(SOON_S), 128 + number)
-        self.assertEqual(sleepers(mark), [])
+        self.assertEqual(members(mark), [])
 
     def test_sigterm_in_a_test(self):
         self.assert_ended_by(signal.SIGTERM, IN_A_TEST)
@@ -94,7 +106,7 @@ class FamilyTest(unittest.TestCase):
     def test_the_end_of_the_work(self):
         process, mark = self.started(AT_ITS_END)
         self.assertEqual(process.wait(SOON_S), 0)
-        self.assertEqual(sleepers(mark), [])
+        self.assertEqual(members(mark), [])
 
 
 if __name__ == "__main__":
