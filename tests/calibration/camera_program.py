@@ -45,7 +45,7 @@ class Camera(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.config = self.folder / "kiosk.toml"
 
-    def run_program(self, *words, camera="v4l2", base=0.30, presses=((0.3, NEXT), (1.2, BACK), (1.5, BACK)), repeat_s=100.0):
+    def run_program(self, *words, camera="v4l2", base=0.30, presses=((0.3, NEXT), (6.0, BACK), (9.0, BACK)), repeat_s=100.0):
         script = ", ".join(f"{{ at_s = {at}, button = {button} }}" for at, button in presses)
         text = SETTINGS.replace("{script}", script).replace("{camera}", camera).replace("{base}", str(base))
         self.config.write_text(text.replace("{repeat_s}", str(repeat_s)))

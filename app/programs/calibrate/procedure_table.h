@@ -1,8 +1,8 @@
 /// Runs a way through a calibration on the table: shows, speaks and listens until it ends, then keeps the
 /// result.
 ///
-/// Time     the devices'. It sleeps between two rounds; without a screen it does not, and that time is
-///          skipped.
+/// Time     the devices'. It sleeps between two rounds. Without a screen and a camera it does not sleep: time is
+///          simulated, so that the result does not depend on the machine's speed.
 /// Errors   the display stops; points cannot be written; a calibration cannot be kept, which the table shows
 ///          too.
 /// Threads  the main one, with the display's context current.
@@ -30,11 +30,13 @@ public:
         std::function<Result<void>(const Way&)> keep;  ///< in stage Done
         std::function<Way(std::string)> why_not;       ///< a way that only shows a problem
         Nanoseconds between_rounds = std::chrono::milliseconds(20);
-        bool with_camera = false; ///< frames have the system's time, so no time is skipped
+        bool with_camera = false; ///< frames have the system's time, so time is not simulated
     };
     /// `devices` must outlive it.
     ProcedureTable(TableDevices& devices, const settings::Settings& settings, Callbacks callbacks)
-        : devices_(devices), callbacks_(std::move(callbacks)) {
+        : devices_(devices), callbacks_(std::move(callbacks)),
+          is_simulated_(devices.is_headless() && !callbacks_.with_camera) {
+        devices_.simulate_time(is_simulated_);
         const double focal_px = settings.projector.pinhole.fx;
         above_m_ = settings.projector.table_from_projector.translation.z;
         prop_px_ = settings.prop.base_m * focal_px / above_m_;
@@ -89,8 +91,8 @@ private:
         }
     }
     void wait() {
-        if (devices_.is_headless() && !callbacks_.with_camera) {
-            devices_.skip(callbacks_.between_rounds);
+        if (is_simulated_) {
+            devices_.advance(callbacks_.between_rounds);
         } else {
             std::this_thread::sleep_for(callbacks_.between_rounds);
         }
@@ -118,6 +120,7 @@ private:
 
     TableDevices& devices_;
     Callbacks callbacks_;
+    bool is_simulated_;
     double above_m_, prop_px_, board_px_; ///< height of the projector; approximate widths on the table
     TableWords words_;                    ///< the shown words
     std::optional<calibration::CalibrationInput::Lit> lit_;

@@ -58,16 +58,32 @@ TableDevices::open(const CalibrateRequest& request, settings::Settings settings,
     }
     TRY(std::unique_ptr<display::Display> display, make_display(settings, request.headless));
     TRY(typography::Typesetter typesetter, typography::Typesetter::open());
-    TRY(show::Inputs inputs, make_inputs(settings, plan, std::nullopt, monotonic_now()));
-    return std::make_unique<TableDevices>(settings, request.headless, std::move(inputs), std::move(display),
-                                          std::move(typesetter));
+    const MonotonicTime begun = monotonic_now();
+    TRY(show::Inputs inputs, make_inputs(settings, plan, std::nullopt, begun));
+    return std::make_unique<TableDevices>(settings, request.headless, begun, std::move(inputs),
+                                          std::move(display), std::move(typesetter));
 }
 
-TableDevices::TableDevices(const settings::Settings& settings, bool headless, show::Inputs inputs,
-                           std::unique_ptr<display::Display> display, typography::Typesetter typesetter)
-    : headless_(headless), inputs_(std::move(inputs)), display_(std::move(display)),
+TableDevices::TableDevices(const settings::Settings& settings, bool headless, MonotonicTime begun,
+                           show::Inputs inputs, std::unique_ptr<display::Display> display,
+                           typography::Typesetter typesetter)
+    : headless_(headless), now_(begun), inputs_(std::move(inputs)), display_(std::move(display)),
       typesetter_(std::move(typesetter)), upload_(display_->width(), display_->height()),
       own_words_(load_default_words(settings)), voice_(voice_of(settings, own_words_)) {}
+
+MonotonicTime TableDevices::now() {
+    if (!is_simulated_) {
+        now_ = monotonic_now() + ahead_;
+    }
+    return now_;
+}
+
+void TableDevices::simulate_time(bool simulated) {
+    if (is_simulated_ && !simulated) {
+        ahead_ = now_ - monotonic_now();
+    }
+    is_simulated_ = simulated;
+}
 
 calibration::CalibrationInput TableDevices::hear(MonotonicTime now) {
     calibration::CalibrationInput heard;

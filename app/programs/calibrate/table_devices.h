@@ -35,13 +35,16 @@ public:
     /// end of a sentence, what else the technician may do if the settings have no tracker or no buttons.
     [[nodiscard]] static Result<std::unique_ptr<TableDevices>>
     open(const CalibrateRequest& request, settings::Settings settings, std::string_view instead);
-    TableDevices(const settings::Settings& settings, bool headless, show::Inputs inputs,
+    /// `begun`: the time at which the inputs begin.
+    TableDevices(const settings::Settings& settings, bool headless, MonotonicTime begun, show::Inputs inputs,
                  std::unique_ptr<display::Display> display, typography::Typesetter typesetter);
 
     [[nodiscard]] bool is_headless() const { return headless_; }
-    /// The system's time plus the skipped time.
-    [[nodiscard]] MonotonicTime now() const { return monotonic_now() + skipped_; }
-    void skip(Nanoseconds time) { skipped_ += time; }
+    /// The system's time plus the time that simulations were ahead of it; while time is simulated, it passes
+    /// only by `advance`. It never goes back.
+    [[nodiscard]] MonotonicTime now();
+    void simulate_time(bool simulated);
+    void advance(Nanoseconds time) { now_ += time; }
 
     /// The input since the last call: the latest reports, and presses.
     [[nodiscard]] calibration::CalibrationInput hear(MonotonicTime now);
@@ -66,7 +69,9 @@ public:
 
 private:
     bool headless_;
-    Nanoseconds skipped_{0};
+    bool is_simulated_ = false;
+    MonotonicTime now_;
+    Nanoseconds ahead_{0}; ///< of the system's time
     service::StopSignals stop_;
     service::ServiceManager manager_;
     std::optional<MonotonicTime> fed_;
