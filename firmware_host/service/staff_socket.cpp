@@ -181,7 +181,10 @@ Result<std::string> StaffSocket::question_of(int client) const {
 }
 
 void StaffSocket::send(int client, std::span<const std::byte> bytes, MonotonicTime until) const {
-    while (!bytes.empty() && wait_for(client, POLLOUT, until) && monotonic_now() < until) {
+    for (MonotonicTime now = monotonic_now(); !bytes.empty() && now < until; now = monotonic_now()) {
+        if (!wait_for(client, POLLOUT, std::min(until, now + max_stall))) {
+            return;
+        }
         const ssize_t sent = ::send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (sent <= 0) {
             return;

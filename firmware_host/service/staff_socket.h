@@ -5,8 +5,9 @@
 /// Access   the file has mode 0660; its group is its folder's if the folder passes it on (setgid). In
 ///          addition, the client must be root, the exhibit's own user, or a member of the file's group, as
 ///          the kernel reports the process.
-/// Limits   one connection at a time, at most twenty per second, each at most some seconds long: a client
-///          that stalls, floods or sends an invalid question delays only the next client.
+/// Limits   one connection at a time, at most twenty per second, each ended after `answer_taken_within`, or after
+///          `max_stall` in which the client takes nothing: a client that stalls, floods or sends an invalid
+///          question delays only the next client.
 /// Threads  its own, of low priority, also for `answer`. It has no heartbeat.
 /// Errors   the socket cannot be made. A client's error ends its connection and is not reported elsewhere.
 /// Source   unix(7): SO_PEERCRED; SO_PEERGROUPS of Linux 4.13.
@@ -33,7 +34,8 @@ class StaffSocket {
 public:
     static constexpr std::size_t max_question_bytes = 64;
     static constexpr Nanoseconds question_within = std::chrono::seconds(1);
-    static constexpr Nanoseconds answer_taken_within = std::chrono::seconds(5);
+    static constexpr Nanoseconds max_stall = std::chrono::seconds(5);
+    static constexpr Nanoseconds answer_taken_within = std::chrono::seconds(30);
     static constexpr Nanoseconds between_clients = std::chrono::milliseconds(50);
 
     /// An error's message becomes the answer's sentence. Must return soon after a stop is requested.

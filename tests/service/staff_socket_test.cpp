@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace frustumscreen::service {
 namespace {
@@ -154,6 +155,21 @@ TEST_F(StaffSocketTest, AClientThatStallsIsLeftBehind) {
     static_cast<void>(::send(deaf.number(), "big\n", 4, MSG_NOSIGNAL));
     EXPECT_TRUE(still_answers());
     EXPECT_LT(rest(deaf).size(), std::size_t{8} << 20);
+}
+
+TEST_F(StaffSocketTest, AClientThatIsSlowButDoesNotStallGetsTheWholeAnswer) {
+    open();
+    const Descriptor slow = connected();
+    static_cast<void>(::send(slow.number(), "big\n", 4, MSG_NOSIGNAL));
+    std::vector<char> part(std::size_t{1} << 20);
+    std::size_t taken = 0;
+    const auto take = [&] { return ::recv(slow.number(), part.data(), part.size(), MSG_WAITALL); };
+    const MonotonicTime begun = monotonic_now();
+    for (ssize_t got = 0; (got = take()) > 0; taken += static_cast<std::size_t>(got)) {
+        ::poll(nullptr, 0, 800);
+    }
+    EXPECT_EQ(taken, (std::size_t{8} << 20) + std::string_view("ok 8388608\n").size());
+    EXPECT_GT(monotonic_now() - begun, StaffSocket::max_stall); // or this test shows nothing
 }
 
 TEST_F(StaffSocketTest, ClientsThatHangUpAtOnceAreTakenSlowly) {
