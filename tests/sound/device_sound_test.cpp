@@ -94,6 +94,11 @@ template <typename Done> bool until(Sound& sound, const SoundRequest& wish, cons
     return comes_true([&] { return done(sound.poll(monotonic_now(), wish)); });
 }
 
+/// Whether a prompt is heard, or was: a caller that stands still for longer than the prompt sees only its end.
+bool has_begun(const SoundReport& report, std::uint64_t number) {
+    return report.number == number || report.over >= number;
+}
+
 TEST(DeviceSound, APromptComesOutWholeAndIsOverThen) {
     FakeCard card;
     const SharedPrompt prompt = noise(15'000, 20'000, 31);
@@ -102,7 +107,7 @@ TEST(DeviceSound, APromptComesOutWholeAndIsOverThen) {
         SoundRequest wish;
         const std::uint64_t number = wish.say(prompt);
         ASSERT_TRUE(
-            until(sound, wish, [&](const SoundReport& r) { return r.audible && r.number == number; }));
+            until(sound, wish, [&](const SoundReport& r) { return r.audible && has_begun(r, number); }));
         EXPECT_EQ(sound.state(), "it sounds");
         ASSERT_TRUE(sound.alive_until());
         EXPECT_GT(*sound.alive_until(), monotonic_now());
@@ -248,8 +253,7 @@ TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {
     for (int k = 0; k < 20; ++k) {
         number = wish.say(prompts[k % 2]);
         wish.set_gain_db(-1.0 * k);
-        const auto heard = [&](const SoundReport& report) { return report.number == number; };
-        ASSERT_TRUE(until(sound, wish, heard));
+        ASSERT_TRUE(until(sound, wish, [&](const SoundReport& report) { return has_begun(report, number); }));
         if (k % 3 == 0) {
             wish.leave();
         }
