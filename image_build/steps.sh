@@ -64,12 +64,13 @@ step() { # WORDS FUNCTION
 uuid_of() { uuidgen --sha1 --namespace @dns --name "frustumscreen.invalid/$1"; }
 
 # Sets `debian` to a folder with Debian's packages. It is kept for the day, or with --locked as long as the list is the same. An image
-# for tests and one for kiosks use the same folder.
+# for tests and one for kiosks use the same folder. The user's cache folder has a copy of the day's packages for other clones.
 fetch_debian() {
-    local wanted today key
+    local wanted key today copy
     wanted=$({ cat image_build/debian.sh image_build/packages.conf ${firmware:+"image_build/packages.$firmware.conf"}; echo "$mirror"; } |
         sha256sum | cut -c 1-8)
     today=$cache/today-$wanted # one line: the day, and the name of the folder with its packages
+    copy=${XDG_CACHE_HOME:-$HOME/.cache}/frustumscreen/debian/$wanted-$(date +%F).tar.zst
     if [[ -n $locked ]]; then
         key=debian-$wanted-$(versions_in "$locked" | sha256sum | cut -c 1-8)
     elif [[ $(cut -d ' ' -f 1 "$today" 2>/dev/null) == $(date +%F) ]]; then
@@ -77,11 +78,13 @@ fetch_debian() {
     fi
     debian=$cache/${key:-none}
     [[ ! -d $debian/tree ]] || return 0
-    [[ -z $locked ]] || versions_in "$locked" >"$work/locked"
-    image_build/debian.sh ${locked:+--locked "$work/locked"} ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
-    mkdir "$work/debian/tree"
-    tar -C "$work/debian/tree" -xf "$work/debian/debian.tar" --no-same-owner --no-same-permissions --exclude=./dev --exclude=./proc --exclude=./sys
-    rm "$work/debian/debian.tar"
+    if [[ -n $locked ]]; then
+        versions_in "$locked" >"$work/locked"
+        fetch_debian_now --locked "$work/locked"
+    elif ! unpack_copy "$copy"; then
+        fetch_debian_now
+        keep_copy "$copy"
+    fi
     key=debian-$wanted-$(versions_in "$work/debian/packages.txt" | sha256sum | cut -c 1-8)
     debian=$cache/$key
     if [[ -z $locked ]]; then
@@ -90,6 +93,32 @@ fetch_debian() {
     fi
     rm -rf "$debian"
     mv "$work/debian" "$debian"
+}
+
+# Fetches the packages into $work/debian: packages.txt and tree/.
+fetch_debian_now() { # OPTION...
+    image_build/debian.sh "$@" ${firmware:+--firmware "$firmware"} ${mirror:+--mirror "$mirror"} "$work/debian"
+    mkdir "$work/debian/tree"
+    unpack_tar "$work/debian/tree" --exclude=./dev --exclude=./proc --exclude=./sys <"$work/debian/debian.tar"
+    rm "$work/debian/debian.tar"
+}
+
+unpack_tar() { tar -C "$1" -x --no-same-owner --no-same-permissions "${@:2}"; } # FOLDER OPTION...
+
+# Unpacks a copy into $work/debian. Returns false if there is none, or if it is damaged.
+unpack_copy() { # COPY
+    [[ -e $1 ]] || return 1
+    mkdir "$work/debian"
+    ! zstd -dcq "$1" 2>/dev/null | unpack_tar "$work/debian" 2>/dev/null || return 0
+    rm -rf "$work/debian" "$1"
+    return 1
+}
+
+# Makes a copy of $work/debian, and removes those of other days. If that fails, for example on a full disk, there is no copy.
+keep_copy() { # COPY
+    mkdir -p "${1%/*}" 2>/dev/null && tar -C "$work/debian" -c . | zstd -1 -q >"$work/copy" || return 0
+    rm -f "${1%-????-??-??.tar.zst}"-*
+    mv "$work/copy" "$1" || rm -f "$1"
 }
 
 # Name and version of each package in a packages.txt, sorted.

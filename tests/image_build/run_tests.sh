@@ -3,11 +3,12 @@
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 cd "$here/../.."
-usage="usage: ./test image [--all] [NAME...]
+usage="usage: ./test image [--all|--but-shipped] [NAME...]
        ./test image --cuts [OPTION...]
        ./test image --start-time [OPTION...]
 
   --all          runs the long tests too
+  --but-shipped  without the start that './test hil' makes too, of the disk as it is shipped
   NAME           a test, as unittest names it, such as test_start.Start.test_first_start; without a name, all tests
   --cuts         tests power cuts instead: './test image --cuts --help'
   --start-time   measures how long starts take instead: './test image --start-time --help'"
@@ -30,6 +31,9 @@ elif [[ ${1-} == --start-time ]]; then
     shift
 elif [[ ${1-} == --all ]]; then
     export FRUSTUMSCREEN_IMAGE_ALL=1
+    shift
+elif [[ ${1-} == --but-shipped ]]; then
+    export FRUSTUMSCREEN_IMAGE_BUT_SHIPPED=1
     shift
 fi
 ./tests/image_build/make_image.sh

@@ -1,5 +1,6 @@
 """Tests the shipped image from power on to the live exhibit: no agent, no other settings, no tracker, no buttons."""
 
+import os
 import pathlib
 import shutil
 import tempfile
@@ -34,6 +35,7 @@ class AsShipped(unittest.TestCase):
         self.assertIn((seen.picture.width, seen.picture.height), shown if isinstance(shown, list) else [shown])
         self.assertEqual(pc.firmware_starts(), 1, "it started more than once")
 
+    @unittest.skipIf(os.environ.get("FRUSTUMSCREEN_IMAGE_BUT_SHIPPED"), "./test hil makes this start too")
     def test_at_the_pictures_own_size(self):
         self.assert_lives_on(1920, 1200)
 
