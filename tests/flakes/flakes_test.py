@@ -7,6 +7,8 @@ import json
 import pathlib
 import subprocess
 import tempfile
+import threading
+import time
 import unittest
 
 import hunt
@@ -86,6 +88,22 @@ class Remembered(MadeUpRepository):
         for test in ended.waiting(hunt.tests_of(self.places)):
             ended.make(test)
         self.assertEqual(self.runs("one"), 0)
+
+    def test_an_ended_hunt_stops_its_runs(self):
+        self.add_script("long", f"echo $$ >{self.counted}/shell; exec sleep 1000")
+        ended = hunt.Hunt(self.places, self.root / "out" / "flakes", "first", TIMES)
+        long = [test for test in hunt.tests_of(self.places) if test.name == "long"]
+        thread = threading.Thread(target=ended.make, args=long)
+        thread.start()
+        shell = self.counted / "shell"
+        while not shell.exists() or not shell.read_text(encoding="utf-8"):
+            time.sleep(0.01)
+        ended.end()
+        thread.join()
+        self.assertEqual(ended.failed, [])
+        while pathlib.Path("/proc", shell.read_text(encoding="utf-8").strip()).exists():
+            time.sleep(0.01)
+        self.assertFalse((self.root / "out" / "flakes" / "long.json").exists())
 
 
 class Failures(MadeUpRepository):

@@ -1,10 +1,12 @@
 """Runs each test of ctest until it has passed a number of times with the same inputs. A record for each test keeps its inputs and the
 number of runs that passed."""
 
+import contextlib
 import dataclasses
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
 import threading
@@ -53,13 +55,18 @@ class Hunt:
         self._digests = inputs.Digests(places)
         self._lock = threading.Lock()
         self._ended = threading.Event()
+        self._running = set()
         self.failed = []
         self.untraced = []  # tests whose records are valid for this commit only
         self.only_compute = []  # tests whose trace shows that they only compute
 
     def end(self):
-        """Lets no further run begin."""
-        self._ended.set()
+        """Lets no further run begin, and stops those that have begun."""
+        with self._lock:
+            self._ended.set()
+            for process in self._running:
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGTERM)
 
     def waiting(self, tests):
         """The tests that still have to run: first those that have never passed all their runs, and of these first those with threads."""
@@ -84,6 +91,8 @@ class Hunt:
             if changed:
                 self._say(f"{test.name}: anew, {changed} is not the same")
             record = self._traced(test, record is not None and record.completed)
+            if self._ended.is_set():
+                return
             self._write(test, record)
         if record.only_computes:
             self.only_compute.append(test.name)
@@ -92,6 +101,8 @@ class Hunt:
             if self._ended.is_set():
                 return
             output = self._run(test, record)
+            if self._ended.is_set():
+                return
             record.passed = 0 if output else record.passed + 1
             record.completed = record.passed >= self._times or (record.completed and not output)
             self._write(test, record)
@@ -116,6 +127,8 @@ class Hunt:
             file = pathlib.Path(folder, "trace")
             record = Record(test.command, {}, self._commit, False, completed=completed)
             output = self._run(test, record, " ".join([*inputs.STRACE, "-o", os.fspath(file)]))
+            if self._ended.is_set():
+                return record
             if output or not file.exists():  # it may use strace itself
                 self.untraced.append(test.name)
                 why = f"its output under strace is in {self._keep(test.name + ' traced', output)}" if output else "it has no trace"
@@ -134,11 +147,19 @@ class Hunt:
         """The output of a run that failed; empty if it passed."""
         environment = dict(os.environ, **(self._sanitizer or {}), **({"FRUSTUMSCREEN_UNDER": under} if under else {}))
         begun = time.monotonic()
-        ran = subprocess.run(["ctest", "--test-dir", self._places.build, "--tests-regex", f"^{test.name}$", "--no-tests=error",
-                              "--output-on-failure"],
-                             env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        command = ["ctest", "--test-dir", self._places.build, "--tests-regex", f"^{test.name}$", "--no-tests=error", "--output-on-failure"]
+        with self._lock:
+            if self._ended.is_set():
+                return b"it was not run\n"
+            # Its own session: where Linux groups processes by session (sched(7), autogroup), each test gets the share of one busy loop.
+            process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+            self._running.add(process)
+        with process:
+            output = process.stdout.read()
+        with self._lock:
+            self._running.remove(process)
         record.seconds = round(time.monotonic() - begun, 1)
-        return (ran.stdout or b"it printed nothing\n") if ran.returncode else b""
+        return (output or b"it printed nothing\n") if process.returncode else b""
 
     def _file(self, test):
         return self._folder / f"{test.name}.json"
