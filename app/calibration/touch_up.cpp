@@ -142,7 +142,7 @@ void judge(TouchUp& result) {
         judge_unmoved(result);
         return;
     }
-    const std::string found = fmt::format("{}, and the picture was {:.1f} mm beside its place on average",
+    const std::string found = fmt::format("{}, and the picture was {:.1f} mm off on average",
                                           what_moved(result.moved), 1e3 * result.off_m);
     if (few_good.keep(result.uncertainty, result.hidden_error_m)) {
         result.verdict = Verdict::Good;

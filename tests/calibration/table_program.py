@@ -200,7 +200,7 @@ class Table(unittest.TestCase):
         self.assertEqual(len((self.folder / "touches.csv").read_text().splitlines()), 8)
         self.assertIn("Staff: put the picture right", done.stderr)
         self.assertIn("Touch 7 of 7", done.stderr)
-        self.assertRegex(done.stderr, r"The projector moved.* The picture was (8|9|10) mm beside its place\.")
+        self.assertRegex(done.stderr, r"The projector moved.* The picture was (8|9|10) mm off\.")
         self.assertIn("The calibration is kept.", done.stderr)
         self.check_picture(tomllib.loads((kept / "calibration-0002.toml").read_text()), truth)
 
@@ -223,7 +223,7 @@ class Table(unittest.TestCase):
         (self.folder / "kept").mkdir()
         (self.folder / "kept/calibration-0001.toml").write_text(TrueTable(1280, 0.4).calibration(SENSOR_M))
         self.config.write_text(self.config.read_text().replace("script = []", "script = [{ at_s = 0.3, button = 0 }]"))
-        note = "--anew is an older name of --from-start, and does the same"
+        note = "--anew is the old name of --from-start, which does the same; use --from-start"
         for option, is_old in (("--from-start", False), ("--anew", True)):
             left = self.run_program("table", option, "--config", self.config, "--headless")
             self.assertEqual(left.returncode, 1)

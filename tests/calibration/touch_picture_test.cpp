@@ -143,13 +143,13 @@ TEST(JudgedWords, ATouchUpSaysWhatMovedAndHowFar) {
     found.uncertainty.mean_m = 5e-4;
     EXPECT_EQ(programs::judgement_of(found).told,
               (std::vector<std::string>{"The projector moved.",
-                                        "The picture was 12 mm beside its place. Once this is kept it is "
+                                        "The picture was 12 mm off. Once this is kept it is "
                                         "right again, to about 0.5 mm."}));
     found.verdict = Verdict::Repeat;
     found.moved = Moved::Either;
     EXPECT_EQ(programs::judgement_of(found).told,
               (std::vector<std::string>{"The projector moved, or the tracker's source.",
-                                        "The picture was 12 mm beside its place. These touches are too few "
+                                        "The picture was 12 mm off. These touches are too few "
                                         "to check each other."}));
     found.moved = Moved::Nothing;
     found.reason.sentence = "the kept calibration holds";

@@ -39,7 +39,7 @@ TEST_F(ConfigCommand, ExplainsAProjectorThatLooksStraightDown) {
          "letters are 16 pixels high", "+Z: one pixel is 0.563 mm; the light is 1.00 of",
          fmt::format("+X, -X, +Y, -Y: one pixel is 0.594 x 2.61 mm; the light is {:.2f} of", side / top),
          fmt::format("Faces are lit 1 : {:.2f}.", side / top), "evenly lit nowhere: its sides are too steep",
-         "1.08 to 1.20 m in front of the lens", "1 mm that the tracker is wrong: 1.8 pixels",
+         "1.08 to 1.20 m in front of the lens", "A tracker error of 1 mm: 1.8 pixels",
          "moves 5.1 mm meanwhile"});
     EXPECT_EQ(text("err.txt"), "");
 }

@@ -101,7 +101,7 @@ protected:
 TEST_F(SignProgram, KeygenWithoutATerminalWritesAnOpenKeyForItsOwnerAlone) {
     const Outcome made = pack("keygen -o house");
     expect_done(made);
-    EXPECT_NE(made.out.find("WITHOUT A PASSWORD"), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find("without a password"), std::string::npos) << made.out;
     struct stat status {};
     ASSERT_EQ(::stat((folder / "house.key").c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777U, 0600U);

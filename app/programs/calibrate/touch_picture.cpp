@@ -204,7 +204,7 @@ std::string what_moved(calibration::Moved moved) {
 }
 
 std::string right_again(const calibration::TouchUp& found) {
-    const std::string was = fmt::format("The picture was {:.0f} mm beside its place.", 1e3 * found.off_m);
+    const std::string was = fmt::format("The picture was {:.0f} mm off.", 1e3 * found.off_m);
     return found.verdict == calibration::Verdict::Repeat
                ? was + " These touches are too few to check each other."
                : fmt::format("{} Once this is kept it is right again, to about {:.1f} mm.", was,

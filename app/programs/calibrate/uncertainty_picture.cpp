@@ -272,8 +272,7 @@ image::Image8 uncertainty_picture(const UncertaintyMap& map, const MeasuredPlace
     fields[1].low_px = {margin_px + field_px.x + between_px, field_top_px};
     const double width_mm = band_mm(1e3 * map.uncertainty.worst_m);
     typography::Canvas canvas(coloured(levels, fields, 1e-3 * width_mm));
-    canvas.text(typesetter, "How far the light may lie beside its place", {margin_px, 36.0}, 38.0, ink, {},
-                true);
+    canvas.text(typesetter, "How far the light may be off", {margin_px, 36.0}, 38.0, ink, {}, true);
     canvas.text(typesetter,
                 fmt::format("{}: {:.2f} mm on average over the zone, {:.2f} mm at the worst place",
                             calibration::name_of(map.verdict), 1e3 * map.uncertainty.mean_m,

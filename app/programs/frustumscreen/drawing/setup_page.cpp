@@ -323,10 +323,9 @@ std::string describe_errors(const settings::Settings& settings, const settings::
     const double walk_m = 1e-3 * settings.tracker.display_latency_ms * 0.3;
     return fmt::format(
         "The effect of errors\n{}"
-        "  A tenth of a degree that the projector is turned: {:.1f} mm on the prop's top, {:.1f} pixels.\n"
-        "  10 mm that the lens hangs beside its place, with the picture aligned on the table: {:.1f} mm on "
-        "the top.\n"
-        "  1 mm that the tracker is wrong: {:.1f} pixels. Artifacts are drawn to {:g} pixels, {:.2f} mm.\n"
+        "  A projector turned by 0.1 degrees: {:.1f} mm on the prop's top, {:.1f} pixels.\n"
+        "  A lens 10 mm from its place, with the picture aligned on the table: {:.1f} mm on the top.\n"
+        "  A tracker error of 1 mm: {:.1f} pixels. Artifacts are drawn to {:g} pixels, {:.2f} mm.\n"
         "  tracker.display_latency_ms, {:g} ms: a prop slid at 0.3 m/s moves {:.1f} mm meanwhile; this is "
         "predicted.\n",
         describe_focus(settings, zone), mm * tenth_degree_m, tenth_degree_m / pixel_m, 10.0 * shift,
