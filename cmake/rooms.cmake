@@ -1,7 +1,9 @@
 # One static library for each room of the house; docs/rooms.md has the map.
 #
-#   frustumscreen_room(<room> SOURCES ... [USES <room>...] [LIBRARIES <target>...])
+#   frustumscreen_room(<room> SOURCES ... [APART <source>...] [USES <room>...] [LIBRARIES <target>...])
 #
+# SOURCES are compiled eight at a time, so the names of their unnamed namespaces differ. APART are compiled alone: sources that only some
+# programs link, because a program links whole object files, and needs each shared library that one of them calls.
 # USES are the rooms that this room may include; tests/layers checks every #include against it.
 add_library(frustumscreen_options INTERFACE)
 target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
@@ -41,15 +43,17 @@ if(FRUSTUMSCREEN_ASAN AND NOT FRUSTUMSCREEN_FUZZ)
     set(rooms_alone_are_checked ON)
     set(test_options -O0 -fno-sanitize=undefined)
 endif()
-if(FRUSTUMSCREEN_UNITY) # GCC takes a fixture in the unnamed namespace of an included source for a type of a header, and warns
-    list(APPEND test_options $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+# GCC takes a type in the unnamed namespace of an included source for a type of a header, and warns.
+set(unity_options $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+if(FRUSTUMSCREEN_UNITY)
+    list(APPEND test_options ${unity_options})
 endif()
 include(cmake/precompiled.cmake)
 
-# Sets `sources` to files that include a dozen of a test's sources each, because reading the precompiled headers takes longer than
-# compiling most sources. The files contain no absolute path, so that ccache finds them in another clone. Not for rooms: a program links
-# whole object files of a room, and would need every shared library that one of the dozen sources calls.
-function(frustumscreen_together target)
+# Sets `sources` to files that include up to NUMBER sources each: reading the headers takes longer than compiling most sources. A source with
+# options of its own stays alone; its set_source_files_properties comes before this call. The files contain no absolute path, so that ccache finds them in
+# another clone.
+function(frustumscreen_together target number)
     if(NOT FRUSTUMSCREEN_UNITY)
         set(sources ${ARGN} PARENT_SCOPE)
         return()
@@ -58,27 +62,39 @@ function(frustumscreen_together target)
     set(together "")
     set(count 0)
     foreach(source IN LISTS ARGN)
-        if(IS_ABSOLUTE ${source}) # generated, or of another folder
+        get_source_file_property(options ${source} COMPILE_OPTIONS)
+        if(NOT options STREQUAL NOTFOUND OR IS_ABSOLUTE ${source}) # absolute: generated, or of another folder
             list(APPEND together ${source})
         else()
-            math(EXPR number "${count} / 12")
-            string(APPEND includes_${number} "#include \"${folder}/${source}\"\n")
+            math(EXPR file "${count} / ${number}")
+            string(APPEND includes_${file} "#include \"${folder}/${source}\"\n")
             math(EXPR count "${count} + 1")
         endif()
     endforeach()
-    set(number 0)
-    while(DEFINED includes_${number})
-        set(file ${CMAKE_BINARY_DIR}/together/${target}_${number}.cpp)
-        file(CONFIGURE OUTPUT ${file} CONTENT "${includes_${number}}" @ONLY) # an unchanged file keeps its modification time
-        list(APPEND together ${file})
-        math(EXPR number "${number} + 1")
+    set(file 0)
+    while(DEFINED includes_${file})
+        set(path ${CMAKE_BINARY_DIR}/together/${target}_${file}.cpp)
+        file(CONFIGURE OUTPUT ${path} CONTENT "${includes_${file}}" @ONLY) # an unchanged file keeps its modification time
+        list(APPEND together ${path})
+        math(EXPR file "${file} + 1")
     endwhile()
     set(sources ${together} PARENT_SCOPE)
 endfunction()
 
+# For the files that frustumscreen_together has made.
+function(frustumscreen_no_linkage_warning)
+    foreach(source IN LISTS ARGN)
+        if(source MATCHES "^${CMAKE_BINARY_DIR}/together/")
+            set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${unity_options}")
+        endif()
+    endforeach()
+endfunction()
+
 function(frustumscreen_room room)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
-    add_library(${room} STATIC ${ROOM_SOURCES})
+    cmake_parse_arguments(ROOM "" "" "SOURCES;APART;USES;LIBRARIES" ${ARGN})
+    frustumscreen_together(${room} 8 ${ROOM_SOURCES})
+    frustumscreen_no_linkage_warning(${sources})
+    add_library(${room} STATIC ${sources} ${ROOM_APART})
     target_link_libraries(${room} PUBLIC frustumscreen_options ${ROOM_USES} ${ROOM_LIBRARIES})
     frustumscreen_use_precompiled(${room} house)
     set_property(GLOBAL APPEND PROPERTY FRUSTUMSCREEN_LAYERS "${room}: ${ROOM_USES}")
@@ -88,8 +104,10 @@ endfunction()
 
 add_custom_target(programs) # all of them, without the tests
 function(frustumscreen_program name)
-    cmake_parse_arguments(PROGRAM "" "" "SOURCES;USES" ${ARGN})
-    add_executable(${name} ${PROGRAM_SOURCES})
+    cmake_parse_arguments(PROGRAM "" "" "SOURCES;APART;USES" ${ARGN})
+    frustumscreen_together(${name} 8 ${PROGRAM_SOURCES})
+    frustumscreen_no_linkage_warning(${sources})
+    add_executable(${name} ${sources} ${PROGRAM_APART})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${PROGRAM_USES})
     if(rooms_alone_are_checked)
         target_compile_options(${name} PRIVATE ${test_options})
@@ -144,7 +162,7 @@ function(frustumscreen_test name)
         list(APPEND TEST_LABELS threads)
         add_dependencies(threads ${name})
     endif()
-    frustumscreen_together(${name} ${TEST_SOURCES})
+    frustumscreen_together(${name} 12 ${TEST_SOURCES})
     add_executable(${name} ${sources} ${TEST_APART})
     target_link_libraries(${name} PRIVATE frustumscreen_options ${TEST_USES} test_folders GTest::gtest_main)
     target_compile_options(${name} PRIVATE ${test_options})

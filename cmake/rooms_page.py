@@ -15,7 +15,7 @@ import textwrap
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TOP = ("firmware_host", "app", "assets_baked", "tests/simulators")
 EXAMPLES = ROOT / "tests" / "examples"
-KEYWORDS = {"LIBRARIES", "PRIVATE", "SOURCES", "USES", "UNITY"}
+KEYWORDS = {"LIBRARIES", "PRIVATE", "SOURCES", "APART", "USES"}
 HEAD = """# Rooms
 
 A room is a folder that is one static library. This page is generated from the `CMakeLists.txt` files and from `tests/examples`: `cmake/rooms_page.py > docs/rooms.md`.
