@@ -48,8 +48,13 @@ std::string system_name() {
     return name;
 }
 
-StatusClock status_clock() {
-    return {monotonic_now(), boot_id()};
+StatusClock status_clock(const std::filesystem::path& root) {
+    StatusClock clock{monotonic_now(), boot_id(root)};
+    // The files of this machine have times of the monotonic clock, which /proc/uptime is not.
+    if (double up_s = 0.0; root != "/" && std::ifstream(root / "proc/uptime") >> up_s) {
+        clock.now = MonotonicTime(std::chrono::round<Nanoseconds>(std::chrono::duration<double>(up_s)));
+    }
+    return clock;
 }
 
 StatusDocument parse_status(std::string_view json, const StatusClock& clock) {

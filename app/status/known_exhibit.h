@@ -32,7 +32,8 @@ struct StatusClock {
     MonotonicTime now;
     std::string boot_id; ///< random(4); empty if the kernel has none
 };
-[[nodiscard]] StatusClock status_clock();
+/// `root`: a folder in place of /, for tests; `now` is the time in its proc/uptime, if it has this file.
+[[nodiscard]] StatusClock status_clock(const std::filesystem::path& root = "/");
 
 struct StatusDocument {
     nlohmann::json fields;       ///< an object; null: nothing is known
@@ -71,7 +72,7 @@ struct StatusPlaces {
     std::filesystem::path boot_folder = usual_boot_folder;
     std::filesystem::path crash_folder = watch::usual_crash_folder;
     std::filesystem::path data_folder = "/var/lib/frustumscreen"; ///< on the disk with the packs
-    std::filesystem::path root = "/";                             ///< the folder that holds sys
+    std::filesystem::path root = "/";                             ///< the folder that holds sys and proc
 };
 /// Brings `known` up to date; files that cannot have changed are not read again.
 void renew_environment(Environment& known, const StatusPlaces& places, const StatusClock& clock);

@@ -37,7 +37,7 @@ folder = "kept"
 sensor_height_m = 0.085
 """
 BACK, NEXT = 0, 1
-ALWAYS_BACK = {"presses": ((1.0, BACK),), "repeat_s": 1.5}  # until it ends, also on a slow machine
+ALWAYS_BACK = {"presses": ((1.0, BACK),), "repeat_s": 1.5}  # until it ends
 
 
 class Camera(unittest.TestCase):
@@ -49,7 +49,7 @@ class Camera(unittest.TestCase):
         script = ", ".join(f"{{ at_s = {at}, button = {button} }}" for at, button in presses)
         text = SETTINGS.replace("{script}", script).replace("{camera}", camera).replace("{base}", str(base))
         self.config.write_text(text.replace("{repeat_s}", str(repeat_s)))
-        return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120, check=False)
+        return subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False)
 
     def test_no_camera_is_found(self):
         done = self.run_program("auto", "--config", self.config, "--headless")

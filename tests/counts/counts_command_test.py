@@ -42,7 +42,7 @@ class Counts(unittest.TestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
 
     def run_counts(self, *options):
-        return subprocess.run([PROGRAM, "counts", "--folder", self.folder, *options], capture_output=True, timeout=60, check=False,
+        return subprocess.run([PROGRAM, "counts", "--folder", self.folder, *options], capture_output=True, check=False,
                               encoding="utf-8")
 
     def a_year(self):

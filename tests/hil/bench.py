@@ -55,7 +55,7 @@ class Mock:
         eventually(lambda: self.usb.exists() and self._control.exists(), 60.0, f"{program} does not start")
 
     def tell(self, *words):
-        answer = control.tell(str(self._control), " ".join(str(word) for word in words))
+        answer = control.tell(str(self._control), " ".join(str(word) for word in words), timeout_s=60.0)
         if not answer["ok"]:
             raise ValueError(answer["error"])
         return answer

@@ -39,7 +39,7 @@ class PressedScript:
         """Runs the script; returns the lines that the programs of `bin` write to the file $SAID."""
         said = self.top / "said"
         said.unlink(missing_ok=True)
-        subprocess.run([SCRIPTS / self.name], check=True, timeout=30, stdout=subprocess.DEVNULL,
+        subprocess.run([SCRIPTS / self.name], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "SAID": str(said),
                             **{name: str(value) for name, value in environment.items()}})
         self.assertFalse(self.pressed.exists(), "the unit would start again and again")

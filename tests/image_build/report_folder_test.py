@@ -75,7 +75,7 @@ class ReportFolder(unittest.TestCase):
     def run_in(self, files, then="", **environment):
         """The script's status, the lines of mounts, and the output of the commands after it."""
         done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", ENTER + then, "sh", self.top, files, OWN / "report-folder"],
-                              capture_output=True, text=True, check=False, timeout=60,
+                              capture_output=True, text=True, check=False,
                               env={**os.environ, "PATH": f"{self.top}/bin:{os.environ['PATH']}", "REPORT_RUN": str(self.top / "run"),
                                    "REPORT_STICKS": str(self.top / "sticks"), "REPORT_SYS": str(self.top / "sys"),
                                    "REPORT_MOUNTS": str(self.top / "mounts"), "REPORT_MACHINE": str(self.top / "machine"), **environment})

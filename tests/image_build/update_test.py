@@ -70,7 +70,7 @@ class Update(unittest.TestCase):
         for name, content in files.items():
             self.write(f"run/frustumscreen-stick/stick1/{name}.raucb", content)
         done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", ENTER, "sh", self.root], capture_output=True, text=True,
-                              check=False, timeout=60, env={**os.environ, "BOOT_SLOTS_COMMAND_LINE": "/cmdline", "UPDATE_STICKS": "/run/sticks"})
+                              check=False, env={**os.environ, "BOOT_SLOTS_COMMAND_LINE": "/cmdline", "UPDATE_STICKS": "/run/sticks"})
         self.assertEqual(done.returncode, 0, done.stderr)
         outcome = self.root / "run/frustumscreen-update/outcome-stick1.json"
         if not outcome.exists():

@@ -42,7 +42,11 @@ Result<WayEnd> measure_by_camera(const settings::Settings& settings, const Calib
              },
          .step =
              [&](calibration::AutoProcedure& way, calibration::CalibrationInput& heard) {
-                 heard.frame = camera->poll(frame) ? &frame : nullptr;
+                 if (camera->poll(frame)) {
+                     devices.simulate_time(false); // frames come by the system's time
+                     frame.time = devices.from_system_time(frame.time);
+                     heard.frame = &frame;
+                 }
                  heard.camera = camera->state();
                  way.step(heard);
                  if (!way.shown()) { // the camera's warnings come from the stripes
@@ -56,8 +60,7 @@ Result<WayEnd> measure_by_camera(const settings::Settings& settings, const Calib
          .keep = [&](const calibration::AutoProcedure& way) { return keep_auto(settings, *way.judged()); },
          .why_not =
              [&](std::string problem) { return calibration::AutoProcedure(board, plan, std::move(problem)); },
-         .between_rounds = std::chrono::milliseconds(5),
-         .with_camera = true});
+         .between_rounds = std::chrono::milliseconds(5)});
     calibration::AutoProcedure way(board, plan);
     TRY(const std::optional<WayEnd> end, table.measure(way));
     return ended_with(end, way.problem());

@@ -1,8 +1,8 @@
 /// Runs a way through a calibration on the table: shows, speaks and listens until it ends, then keeps the
 /// result.
 ///
-/// Time     the devices'. It sleeps between two rounds. Without a screen and a camera it does not sleep: time is
-///          simulated, so that the result does not depend on the machine's speed.
+/// Time     the devices'. It sleeps between two rounds. Without a screen it does not sleep until a camera sends
+///          its first frame: time is simulated, so that the result does not depend on the machine's speed.
 /// Errors   the display stops; points cannot be written; a calibration cannot be kept, which the table shows
 ///          too.
 /// Threads  the main one, with the display's context current.
@@ -30,13 +30,11 @@ public:
         std::function<Result<void>(const Way&)> keep;  ///< in stage Done
         std::function<Way(std::string)> why_not;       ///< a way that only shows a problem
         Nanoseconds between_rounds = std::chrono::milliseconds(20);
-        bool with_camera = false; ///< frames have the system's time, so time is not simulated
     };
     /// `devices` must outlive it.
     ProcedureTable(TableDevices& devices, const settings::Settings& settings, Callbacks callbacks)
-        : devices_(devices), callbacks_(std::move(callbacks)),
-          is_simulated_(devices.is_headless() && !callbacks_.with_camera) {
-        devices_.simulate_time(is_simulated_);
+        : devices_(devices), callbacks_(std::move(callbacks)) {
+        devices_.simulate_time(devices.is_headless());
         const double focal_px = settings.projector.pinhole.fx;
         above_m_ = settings.projector.table_from_projector.translation.z;
         prop_px_ = settings.prop.base_m * focal_px / above_m_;
@@ -91,7 +89,7 @@ private:
         }
     }
     void wait() {
-        if (is_simulated_) {
+        if (devices_.is_time_simulated()) {
             devices_.advance(callbacks_.between_rounds);
         } else {
             std::this_thread::sleep_for(callbacks_.between_rounds);
@@ -120,7 +118,6 @@ private:
 
     TableDevices& devices_;
     Callbacks callbacks_;
-    bool is_simulated_;
     double above_m_, prop_px_, board_px_; ///< height of the projector; approximate widths on the table
     TableWords words_;                    ///< the shown words
     std::optional<calibration::CalibrationInput::Lit> lit_;

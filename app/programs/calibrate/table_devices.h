@@ -44,6 +44,9 @@ public:
     /// only by `advance`. It never goes back.
     [[nodiscard]] MonotonicTime now();
     void simulate_time(bool simulated);
+    [[nodiscard]] bool is_time_simulated() const { return is_simulated_; }
+    /// In the devices' time; needs time that is not simulated.
+    [[nodiscard]] MonotonicTime from_system_time(MonotonicTime time) const { return time + ahead_; }
     void advance(Nanoseconds time) { now_ += time; }
 
     /// The input since the last call: the latest reports, and presses.

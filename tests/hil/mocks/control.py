@@ -31,11 +31,13 @@ async def serve(path, execute):
     return await asyncio.start_unix_server(talk, path)
 
 
-def tell(path, line, timeout_s=10.0):
-    """Sends one command to a mock's socket and returns the answer as a dict; for other programs."""
+def tell(path, line, timeout_s=None):
+    """Sends one command to a mock's socket and returns the answer as a dict; for other programs. None: waits as long as the mock lives."""
     with socket.socket(socket.AF_UNIX) as connection:
         connection.settimeout(timeout_s)
         connection.connect(path)
         connection.sendall(line.encode() + b"\n")
         with connection.makefile() as answers:
-            return json.loads(answers.readline())
+            if not (answer := answers.readline()):
+                raise ConnectionError("it ended before it answered")
+            return json.loads(answer)

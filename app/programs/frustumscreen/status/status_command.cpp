@@ -42,7 +42,7 @@ std::optional<int> read_arguments(int argc, char** argv, Request& request) {
     add_status_places(app, request.places);
     app.add_option("--data-folder", request.places.data_folder, "a folder on the disk with the packs")
         .capture_default_str();
-    app.add_option("--root", request.places.root, "folder that contains sys; another one for tests")
+    app.add_option("--root", request.places.root, "folder that contains sys and proc; another one for tests")
         .capture_default_str();
     app.add_option("--staff-socket", request.staff_socket, "the exhibit's socket for screenshots")
         .capture_default_str();
@@ -61,7 +61,8 @@ int status_command(int argc, char** argv) {
     if (const std::optional<int> status = read_arguments(argc, argv, request)) {
         return *status;
     }
-    const status::KnownExhibit known = status::read_known_exhibit(request.places, status::status_clock());
+    const status::KnownExhibit known =
+        status::read_known_exhibit(request.places, status::status_clock(request.places.root));
     const std::string text = request.json         ? status::status_document(known)
                              : request.prometheus ? status::prometheus_text(known)
                                                   : status::status_text(known, std::time(nullptr));
