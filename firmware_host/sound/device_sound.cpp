@@ -16,6 +16,8 @@ constexpr Nanoseconds look_again = std::chrono::seconds(1);
 constexpr int pauses_for_each_look = 10;
 constexpr Nanoseconds round = milliseconds(10);
 constexpr Nanoseconds stalls_after = milliseconds(500);
+/// A longer round says nothing about the device: its thread stood still, and found a queue that it had just filled.
+constexpr Nanoseconds longest_counted_round = 5 * round;
 
 /// Limits a device to the clock: 2 % more than real time, plus a small burst. ALSA's 'null' device accepts
 /// any number of samples at once.
@@ -76,8 +78,9 @@ void DeviceSound::run(const std::stop_token& stop) {
 
 Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
     const std::uint64_t underruns_before = underruns_;
-    MonotonicTime moved = monotonic_now();
-    Allowance allowance(moved);
+    MonotonicTime before = monotonic_now();
+    Nanoseconds stalled{0}; ///< since the device last had space
+    Allowance allowance(before);
     while (!stop.stop_requested()) {
         const MonotonicTime now = monotonic_now();
         heartbeat_.promise(now + longest_round);
@@ -95,8 +98,10 @@ Error DeviceSound::play(PcmDevice& device, const std::stop_token& stop) {
             return written.error();
         }
         allowance.use(std::min(*free, allowed));
-        moved = *free > 0 ? now : moved;
-        if (now - moved > stalls_after) {
+        stalled += std::min<Nanoseconds>(now - before, longest_counted_round);
+        stalled = *free > 0 ? Nanoseconds(0) : stalled;
+        before = now;
+        if (stalled > stalls_after) {
             return Error{ErrorKind::DeviceLost, "sound.stalled",
                          "the sound device takes no more samples; it is opened again"};
         }

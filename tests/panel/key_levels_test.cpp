@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <random>
-#include <thread>
 
 namespace frustumscreen::panel {
 namespace {
@@ -136,15 +136,35 @@ TEST(KeyLines, AKeyboardThatIsNotThereIsSaidInOneSentence) {
     EXPECT_EQ(no_keyboard.error().id, "panel.no_event_device") << no_keyboard.error().message;
 }
 
+/// Counts the readings of another device's lines.
+class CountedLines final : public ButtonLines {
+public:
+    CountedLines(std::unique_ptr<ButtonLines> lines, std::atomic<int>& readings)
+        : lines_(std::move(lines)), readings_(readings) {}
+    [[nodiscard]] Result<void> read(std::span<bool> down) override {
+        Result<void> read = lines_->read(down);
+        ++readings_;
+        return read;
+    }
+    [[nodiscard]] Result<void> wait(Nanoseconds timeout) override { return lines_->wait(timeout); }
+
+private:
+    std::unique_ptr<ButtonLines> lines_;
+    std::atomic<int>& readings_;
+};
+
 /// A keyboard backed by a pipe: the test writes the bytes that the kernel would send.
 struct PipeKeyboard {
     std::array<int, 2> ends{-1, -1};
+    std::atomic<bool> plugged{false}; ///< opening waits for it, so that what a loss says stays to be seen
+    std::atomic<int> readings{0};     ///< since it was plugged in
 
     [[nodiscard]] Result<std::unique_ptr<ButtonLines>> open() {
+        plugged.wait(false);
         if (::pipe(ends.data()) != 0) {
             return fail(ErrorKind::DeviceLost, "test.device", "no pipe");
         }
-        return key_lines_over(ends[0], "pipe", {left, right});
+        return std::make_unique<CountedLines>(key_lines_over(ends[0], "pipe", {left, right}), readings);
     }
     void send(unsigned code, int value) const {
         std::vector<std::byte> bytes = event(key, code, value);
@@ -152,21 +172,29 @@ struct PipeKeyboard {
         bytes.insert(bytes.end(), end.begin(), end.end());
         ASSERT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
     }
-    void unplug() { ::close(std::exchange(ends[1], -1)); }
+    void unplug() {
+        plugged = false;
+        ::close(std::exchange(ends[1], -1));
+    }
+    void plug() {
+        readings = 0;
+        plugged = true;
+        plugged.notify_all();
+    }
+};
+
+/// Lets the panel's thread end.
+struct PluggedAtTheEnd {
+    PipeKeyboard& keyboard;
+    ~PluggedAtTheEnd() { keyboard.plug(); }
 };
 
 TEST_F(KeyLevelsTest, PressAButtonThroughAPanelAndComeBackAfterTheyWereUnplugged) {
     PipeKeyboard keyboard;
-    std::atomic<int> opened{0};
     ButtonTimes times;
     times.debounce = milliseconds(5);
-    ButtonPanel panel(
-        [&] {
-            auto lines = keyboard.open();
-            ++opened;
-            return lines;
-        },
-        2, times);
+    ButtonPanel panel([&] { return keyboard.open(); }, 2, times);
+    const PluggedAtTheEnd at_the_end{keyboard};
     std::vector<PanelEvent> events;
     const auto until = [&](const auto& done) {
         return comes_true([&] {
@@ -175,8 +203,8 @@ TEST_F(KeyLevelsTest, PressAButtonThroughAPanelAndComeBackAfterTheyWereUnplugged
         });
     };
     for (int plugged = 1; plugged <= 2; ++plugged) {
-        ASSERT_TRUE(until([&] { return opened == plugged; }));
-        std::this_thread::sleep_for(milliseconds(20)); // levels must be known before they change
+        keyboard.plug();
+        ASSERT_TRUE(until([&] { return keyboard.readings > 0; })); // levels are known before they change
         events.clear();
         keyboard.send(right, 1);
         ASSERT_TRUE(until([&] { return !events.empty(); }));

@@ -1,34 +1,34 @@
 /// Finds a thread of another process by name and stops it for good, as a hanging device does.
 #pragma once
 
+#include "tests/base/comes_true.h"
+
 #include <fmt/format.h>
 #include <sys/ptrace.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
-#include <thread>
 
 namespace frustumscreen::programs {
 
 /// Waits for the name, because a thread names itself when it first runs.
 inline std::optional<pid_t> thread_named(pid_t process, const std::string& wanted) {
-    using Clock = std::chrono::steady_clock;
-    for (const auto end = Clock::now() + std::chrono::seconds(10); Clock::now() < end;) {
+    std::optional<pid_t> thread;
+    static_cast<void>(comes_true([&] {
         for (const auto& entry : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
             std::string name;
             std::getline(std::ifstream(entry.path() / "comm"), name);
             if (name == wanted) {
-                return std::stoi(entry.path().filename());
+                thread = std::stoi(entry.path().filename());
             }
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return std::nullopt;
+        return thread.has_value();
+    }));
+    return thread;
 }
 
 /// Stops a child's thread, which is traced from then on: the test must wait for its end before the child's. False if

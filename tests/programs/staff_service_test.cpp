@@ -2,6 +2,7 @@
 
 #include "app/programs/frustumscreen/staff_service.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/comes_true.h"
 #include "tests/base/temporary_folder.h"
 
 #include <GLES3/gl31.h>
@@ -57,8 +58,14 @@ TEST_F(StaffService, HandsOutThePictureThatIsPresented) {
     const auto socket = opened(path);
     ASSERT_NE(socket, nullptr);
     EXPECT_EQ(said, "");
-    std::future<Result<Bytes>> answer =
-        std::async(std::launch::async, [this] { return ask_for_screenshot(path); });
+    std::future<Result<Bytes>> answer = std::async(std::launch::async, [this] {
+        Result<Bytes> got = Bytes();
+        static_cast<void>(comes_true([&] { // a pause on either side costs a question its answer
+            got = ask_for_screenshot(path);
+            return got.has_value();
+        }));
+        return got;
+    });
     while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
         screenshot.serve(**display);
     }

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
@@ -55,13 +56,19 @@ protected:
         }
         return text;
     }
+    /// A pause of a second before the question is sent costs it its answer; then it is asked again.
     [[nodiscard]] std::string answer_to(std::string_view sent) const {
-        const Descriptor client = connected();
-        static_cast<void>(::send(client.number(), sent.data(), sent.size(), MSG_NOSIGNAL));
-        return rest(client);
+        std::string answer;
+        do {
+            const Descriptor client = connected();
+            static_cast<void>(::send(client.number(), sent.data(), sent.size(), MSG_NOSIGNAL));
+            answer = rest(client);
+        } while (answer == no_question_came);
+        return answer;
     }
     [[nodiscard]] bool still_answers() const { return answer_to("hello\n") == "ok 1\n*"; }
 
+    static constexpr std::string_view no_question_came = "no no question came within a second\n";
     fs::path path = folder / "s";
     std::unique_ptr<StaffSocket> server;
     std::atomic<int> questions{0};
@@ -72,7 +79,10 @@ TEST_F(StaffSocketTest, AnswersEachQuestionInItsFrame) {
     EXPECT_EQ(answer_to("hello\n"), "ok 1\n*");
     EXPECT_EQ(answer_to("what\n"), "no no?such question\n");
     EXPECT_EQ(answer_to("hello\nhello\n"), "ok 1\n*");
-    const Result<Bytes> asked = ask_staff_socket(path, "big", std::size_t{9} << 20, seconds(60));
+    Result<Bytes> asked = Bytes();
+    do {
+        asked = ask_staff_socket(path, "big", std::size_t{9} << 20, seconds(60));
+    } while (!asked && asked.error().message.find("no question came") != std::string::npos);
     ASSERT_TRUE(asked) << asked.error().message;
     EXPECT_EQ(*asked, Bytes(std::size_t{8} << 20, std::byte{7}));
     EXPECT_FALSE(ask_staff_socket(path, "big", std::size_t{7} << 20, seconds(60)));
@@ -149,8 +159,8 @@ TEST_F(StaffSocketTest, AClientThatStallsIsLeftBehind) {
     const Descriptor half = connected();
     static_cast<void>(::send(half.number(), "hel", 3, MSG_NOSIGNAL));
     EXPECT_TRUE(still_answers()); // after both clients
-    EXPECT_EQ(rest(silent), "no no question came within a second\n");
-    EXPECT_EQ(rest(half), "no no question came within a second\n");
+    EXPECT_EQ(rest(silent), no_question_came);
+    EXPECT_EQ(rest(half), no_question_came);
     const Descriptor deaf = connected(); // requests more than its socket buffer holds, and reads nothing
     static_cast<void>(::send(deaf.number(), "big\n", 4, MSG_NOSIGNAL));
     EXPECT_TRUE(still_answers());
@@ -159,17 +169,34 @@ TEST_F(StaffSocketTest, AClientThatStallsIsLeftBehind) {
 
 TEST_F(StaffSocketTest, AClientThatIsSlowButDoesNotStallGetsTheWholeAnswer) {
     open();
-    const Descriptor slow = connected();
-    static_cast<void>(::send(slow.number(), "big\n", 4, MSG_NOSIGNAL));
     std::vector<char> part(std::size_t{1} << 20);
     std::size_t taken = 0;
-    const auto take = [&] { return ::recv(slow.number(), part.data(), part.size(), MSG_WAITALL); };
-    const MonotonicTime begun = monotonic_now();
-    for (ssize_t got = 0; (got = take()) > 0; taken += static_cast<std::size_t>(got)) {
-        ::poll(nullptr, 0, 800);
-    }
+    Nanoseconds longest_pause{0};
+    Nanoseconds took{0};
+    bool asked_late = false;
+    do { // again if this thread itself stood still for so long that it was a client that stalls
+        const MonotonicTime begun = monotonic_now();
+        const Descriptor slow = connected();
+        static_cast<void>(::send(slow.number(), "big\n", 4, MSG_NOSIGNAL));
+        MonotonicTime latest = monotonic_now();
+        asked_late = latest - begun >= StaffSocket::question_within;
+        taken = 0;
+        longest_pause = Nanoseconds(0);
+        const auto take = [&] {
+            const ssize_t got = ::recv(slow.number(), part.data(), part.size(), MSG_WAITALL);
+            const MonotonicTime now = monotonic_now();
+            longest_pause = std::max<Nanoseconds>(longest_pause, now - latest);
+            latest = now;
+            return got;
+        };
+        for (ssize_t got = 0; (got = take()) > 0; taken += static_cast<std::size_t>(got)) {
+            ::poll(nullptr, 0, 800);
+        }
+        took = latest - begun;
+    } while (asked_late || longest_pause >= StaffSocket::max_stall ||
+             took >= StaffSocket::answer_taken_within);
     EXPECT_EQ(taken, (std::size_t{8} << 20) + std::string_view("ok 8388608\n").size());
-    EXPECT_GT(monotonic_now() - begun, StaffSocket::max_stall); // or this test shows nothing
+    EXPECT_GT(took, StaffSocket::max_stall); // or this test shows nothing
 }
 
 TEST_F(StaffSocketTest, ClientsThatHangUpAtOnceAreTakenSlowly) {

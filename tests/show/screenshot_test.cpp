@@ -2,6 +2,7 @@
 #include "app/render/probe.h"
 #include "app/show/screenshot.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/comes_true.h"
 
 #include <GLES3/gl31.h>
 #include <gtest/gtest.h>
@@ -27,11 +28,16 @@ protected:
         glClear(GL_COLOR_BUFFER_BIT);
         ASSERT_TRUE(display->present(monotonic_now()));
     }
-    /// Serves until a request on another thread is answered.
+    /// Serves until a request on another thread is answered. After some seconds the request is withdrawn, and made
+    /// again.
     [[nodiscard]] Result<image::Image8> asked() {
         std::future<Result<image::Image8>> answer =
             std::async(std::launch::async, [this]() -> Result<image::Image8> {
-                const Result<const image::Image8*> taken = screenshot.take(std::stop_token());
+                Result<const image::Image8*> taken = nullptr;
+                static_cast<void>(comes_true([&] {
+                    taken = screenshot.take(std::stop_token());
+                    return taken.has_value();
+                }));
                 return taken ? Result<image::Image8>(**taken) : tl::unexpected<Error>(taken.error());
             });
         while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {

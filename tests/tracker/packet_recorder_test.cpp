@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <thread>
@@ -280,10 +281,14 @@ TEST_F(RecorderTest, BesideARunningTrackerItKeepsWhatWasPolled) {
     EXPECT_EQ(replay->left_bytes(), 0U);
     std::vector<PoseSample> replayed;
     replay->play(replay->end(), replayed);
-    ASSERT_GE(replayed.size(), polled.size());
+    // A poll after a pause of 256 samples misses the oldest, which are recorded all the same.
+    auto at = replayed.begin();
     for (std::size_t k = 0; k < polled.size(); ++k) {
-        ASSERT_EQ(polled[k].time, replayed[k].time) << k;
-        ASSERT_EQ(polled[k].position_m, replayed[k].position_m);
+        at = std::find_if(at, replayed.end(),
+                          [&](const PoseSample& sample) { return sample.time == polled[k].time; });
+        ASSERT_NE(at, replayed.end()) << k;
+        ASSERT_EQ(polled[k].position_m, at->position_m) << k;
+        ++at;
     }
 }
 

@@ -64,19 +64,24 @@ private:
     std::uint32_t counter_ = 0;
 };
 
-/// A bus on which every call is slow.
+/// A search that ends when the test lets it.
+struct LongSearch {
+    std::atomic<bool> begun{false};
+    std::atomic<bool> may_end{false};
+};
 class SlowBus final : public UsbBus {
 public:
-    explicit SlowBus(std::atomic<int>& searches) : searches_(searches) {}
+    explicit SlowBus(LongSearch& search) : search_(search) {}
     [[nodiscard]] tl::expected<FoundTracker, UsbTrackerState>
     find(std::span<const std::string> /*but_not*/) override {
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        ++searches_;
+        search_.begun = true;
+        search_.begun.notify_all();
+        search_.may_end.wait(false);
         return tl::unexpected(UsbTrackerState::NoPermission);
     }
 
 private:
-    std::atomic<int>& searches_;
+    LongSearch& search_;
 };
 
 TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
@@ -112,15 +117,15 @@ TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
 }
 
 TEST(UsbTracker, ALongCallOfTheDeviceHoldsUpNoPoll) {
-    std::atomic<int> searches{0};
-    UsbTracker tracker(std::make_unique<SlowBus>(searches), {});
+    LongSearch search;
+    UsbTracker tracker(std::make_unique<SlowBus>(search), {});
     std::vector<PoseSample> samples;
-    int polls_within_a_search = 0;
-    while (searches == 0) {
+    search.begun.wait(false);
+    for (int k = 0; k < 2; ++k) { // a poll that waited for the search would never return
         EXPECT_TRUE(tracker.poll(monotonic_now(), samples));
-        ++polls_within_a_search;
     }
-    EXPECT_GT(polls_within_a_search, 1);
+    search.may_end = true;
+    search.may_end.notify_all();
     EXPECT_TRUE(samples.empty());
 }
 
