@@ -1,5 +1,6 @@
 // The patches of frozen windows: a thread that is slow never holds up a frame, and a frame that freezes a window allocates nothing.
 #include "app/show/frozen_windows.h"
+#include "tests/base/comes_true.h"
 #include "tests/render/counted_new.h"
 #include "tests/show/shown_packs.h"
 
@@ -45,16 +46,12 @@ constexpr MonotonicTime now{std::chrono::seconds(100)};
 
 /// Draws frames until the patch of the eye is there; false: it did not come.
 bool comes(FrozenWindows& windows, std::uint32_t number, const glm::dvec3& eye) {
-    for (int frame = 0; frame < 6000; ++frame) {
+    return comes_true([&] {
         const scene::WindowPatches* const patches = windows.look(number, {&eye, 1}, now);
         const exhibit::PresentedWindow shown = presented(number);
         windows.step({&shown, 1});
-        if (patches != nullptr && scene::points_for(*patches, eye) != nullptr) {
-            return true;
-        }
-        std::this_thread::sleep_for(milliseconds(1));
-    }
-    return false;
+        return patches != nullptr && scene::points_for(*patches, eye) != nullptr;
+    });
 }
 
 TEST(FrozenWindows, FramesGoOnWhileTheThreadHangs) {

@@ -7,6 +7,7 @@
 #include "app/show/room_show.h"
 #include "firmware_host/base/file.h"
 #include "firmware_host/display/surfaceless_display.h"
+#include "tests/base/comes_true.h"
 #include "tests/base/temporary_folder.h"
 #include "tests/render/counted_new.h"
 #include "tests/render/interlocked.h"
@@ -15,11 +16,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <limits>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace frustumscreen::synthetic {
@@ -407,12 +406,11 @@ TEST(RoomShow, LiveAnObjectComesWhenItIsLoadedAndAMissingOneIsSaid) {
     const glm::dvec3 eye(0.0, -0.5, 0.7);
     double seconds = 0.0;
     bool faded = false;
-    for (int frame = 0; frame < 2000 && (shown.show->counts().drawn < 1 || shown.show->faults().size() < 2);
-         ++frame) {
+    ASSERT_TRUE(comes_true([&] {
         shown.draw(seconds += 0.02, eye);
         faded = faded || shown.show->counts().fading > 0;
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
+        return shown.show->counts().drawn >= 1 && shown.show->faults().size() >= 2;
+    }));
     EXPECT_TRUE(faded) << "it comes by a fade";
     EXPECT_EQ(shown.show->counts().drawn, 1U) << "the rings";
     ASSERT_EQ(shown.show->faults().size(), 2U);

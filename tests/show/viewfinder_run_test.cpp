@@ -290,6 +290,9 @@ TEST_F(ViewfinderRun, NoScreenshotHasIt) {
     };
     run(looked, seconds(5));
     ASSERT_TRUE(shown_with);
+    while (got.wait_for(milliseconds(1)) != std::future_status::ready) {
+        asked.serve(*display); // the request may come only now
+    }
     const image::Image8 picture = got.get();
     ASSERT_EQ(picture.width, width);
     EXPECT_TRUE(are_equal(picture, render::read_colour(display->framebuffer(), width, height)))
