@@ -2,8 +2,9 @@
 #
 #   frustumscreen_room(<room> SOURCES ... [APART <source>...] [USES <room>...] [LIBRARIES <target>...])
 #
-# SOURCES are compiled eight at a time, so the names of their unnamed namespaces differ. APART are compiled alone: sources that only some
-# programs link, because a program links whole object files, and needs each shared library that one of them calls.
+# SOURCES are compiled eight at a time. APART are compiled alone: sources whose unnamed namespace has a name of another source; the sources of
+# a room of which some programs need a part, because a program links whole object files, and every shared library that one of them calls; and
+# sources that GCC compiles faster alone.
 # USES are the rooms that this room may include; tests/layers checks every #include against it.
 add_library(frustumscreen_options INTERFACE)
 target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
