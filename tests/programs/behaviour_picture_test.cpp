@@ -71,11 +71,11 @@ std::string pose_file(const std::vector<Pose>& poses) {
 class BehaviourPicture : public ProgramFolder {
 protected:
     void SetUp() override {
-        put("kiosk.toml",
-            fmt::format("[projector]\nwidth = {}\nheight = {}\nfx = {}\nposition_m = [0.0, 0.0, {}]\n"
-                        "aim_m = [0.0, 0.0, 0.0]\n[prop]\nkind = \"solid\"\nfile = \"{}\"\n"
-                        "[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
-                        width, height, focal_px, lens_m.z, prop_file()));
+        put("kiosk.toml", fmt::format("[projector]\nwidth = {}\nheight = {}\nrefresh_hz = 20.0\nfx = {}\n"
+                                      "position_m = [0.0, 0.0, {}]\n"
+                                      "aim_m = [0.0, 0.0, 0.0]\n[prop]\nkind = \"solid\"\nfile = \"{}\"\n"
+                                      "[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
+                                      width, height, focal_px, lens_m.z, prop_file()));
         put("poses.csv", pose_file(poses_));
         static const pack::Pack pack = chest(); // a bake takes seconds
         put_pack("chest.fspack", pack);
@@ -201,7 +201,7 @@ TEST_F(BehaviourPicture, RunsInTheExhibitWhenTheArtifactArrives) {
         walk += fmt::format("{0},1,{1},0,0.05,1,0,0,0,1\n{0},2,0.1,-0.4,0.6,1,0,0,0,1\n", 100000 * k, x_m);
     }
     put("walk.csv", walk);
-    ASSERT_EQ(run("frustumscreen run --config kiosk.toml --headless --seconds 8 --out run"), 0)
+    ASSERT_EQ(run("frustumscreen run --config kiosk.toml --headless --fast --seconds 8 --out run"), 0)
         << text("err.txt");
     const std::string frames = text("run/frames.csv");
     EXPECT_NE(frames.find(",cells,"), std::string::npos) << frames.substr(frames.size() - 400);

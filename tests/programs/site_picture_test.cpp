@@ -151,11 +151,11 @@ class SitePicture : public ProgramFolder {
 protected:
     void SetUp() override {
         put("town.obj", obj_of(town()));
-        put("kiosk.toml",
-            fmt::format("[projector]\nwidth = {}\nheight = {}\nfx = {}\nposition_m = [0.0, 0.0, {}]\n"
-                        "aim_m = [0.0, 0.0, 0.0]\n[prop]\nkind = \"solid\"\nfile = \"{}\"\n"
-                        "[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
-                        site_width, site_height, site_focal_px, site_lens_m.z, prop_file()));
+        put("kiosk.toml", fmt::format("[projector]\nwidth = {}\nheight = {}\nrefresh_hz = 20.0\nfx = {}\n"
+                                      "position_m = [0.0, 0.0, {}]\n"
+                                      "aim_m = [0.0, 0.0, 0.0]\n[prop]\nkind = \"solid\"\nfile = \"{}\"\n"
+                                      "[table]\nwidth_m = 0.576\ndepth_m = 0.36\n",
+                                      site_width, site_height, site_focal_px, site_lens_m.z, prop_file()));
         std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
         for (std::size_t k = 0; k < poses_.size(); ++k) {
             const SitePose& pose = poses_[k];
@@ -254,7 +254,7 @@ TEST_F(SitePicture, GoesIntoTheSiteAndBackInTheExhibit) {
         walk += fmt::format("{0},1,{1},0,0.05,1,0,0,0,1\n{0},2,0.1,-0.4,0.6,1,0,0,0,1\n", 100000 * k, x_m);
     }
     put("walk.csv", walk);
-    ASSERT_EQ(run("frustumscreen run --config kiosk.toml --headless --seconds 13 --out run"), 0)
+    ASSERT_EQ(run("frustumscreen run --config kiosk.toml --headless --fast --seconds 13 --out run"), 0)
         << text("err.txt");
     std::istringstream frames(text("run/frames.csv"));
     std::string order; // of whole and regions
