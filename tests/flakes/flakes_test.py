@@ -10,6 +10,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 import hunt
 import inputs
@@ -90,6 +91,9 @@ class Remembered(MadeUpRepository):
         self.assertEqual(self.runs("one"), 0)
 
     def test_an_ended_hunt_stops_its_runs(self):
+        temporary = self.root.parent / "temporary"
+        temporary.mkdir()
+        self.enterContext(unittest.mock.patch.object(tempfile, "tempdir", str(temporary)))
         self.add_script("long", f"echo $$ >{self.counted}/shell; exec sleep 1000")
         ended = hunt.Hunt(self.places, self.root / "out" / "flakes", "first", TIMES)
         long = [test for test in hunt.tests_of(self.places) if test.name == "long"]
@@ -103,6 +107,7 @@ class Remembered(MadeUpRepository):
         self.assertEqual(ended.failed, [])
         while pathlib.Path("/proc", shell.read_text(encoding="utf-8").strip()).exists():
             time.sleep(0.01)
+        self.assertEqual(list(temporary.iterdir()), [])
         self.assertFalse((self.root / "out" / "flakes" / "long.json").exists())
 
 

@@ -148,14 +148,18 @@ class Hunt:
         environment = dict(os.environ, **(self._sanitizer or {}), **({"FRUSTUMSCREEN_UNDER": under} if under else {}))
         begun = time.monotonic()
         command = ["ctest", "--test-dir", self._places.build, "--tests-regex", f"^{test.name}$", "--no-tests=error", "--output-on-failure"]
-        with self._lock:
-            if self._ended.is_set():
-                return b"it was not run\n"
-            # Its own session: where Linux groups processes by session (sched(7), autogroup), each test gets the share of one busy loop.
-            process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
-            self._running.add(process)
-        with process:
-            output = process.stdout.read()
+        # A folder of its own, because ctest kills a test that is stopped before the test can remove its own.
+        with tempfile.TemporaryDirectory(prefix="f.", ignore_cleanup_errors=True) as folder:
+            os.chmod(folder, 0o1777)  # some tests act as another user
+            with self._lock:
+                if self._ended.is_set():
+                    return b"it was not run\n"
+                # Its own session: where Linux groups processes by session (sched(7), autogroup), each test gets the share of one loop.
+                process = subprocess.Popen(command, env={**environment, "TMPDIR": folder}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                           start_new_session=True)
+                self._running.add(process)
+            with process:
+                output = process.stdout.read()
         with self._lock:
             self._running.remove(process)
         record.seconds = round(time.monotonic() - begun, 1)
