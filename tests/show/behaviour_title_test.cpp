@@ -77,7 +77,7 @@ protected:
         settings.panel.keys = {"1", "2", "3", "4", "5", "6"};
         devices.language = true;
         options.technique = "finest"; // no governor: pictures can be compared
-        display.reset(); // one context at a time
+        display.reset();              // one context at a time
         display = display::SurfacelessDisplay::create(width, height).value();
     }
     /// The picture two seconds after a visitor has come, and `commands` were given.
