@@ -2,9 +2,10 @@
 #
 #   frustumscreen_room(<room> SOURCES ... [APART <source>...] [USES <room>...] [LIBRARIES <target>...])
 #
-# SOURCES are compiled eight at a time. APART are compiled alone: sources whose unnamed namespace has a name of another source; the sources of
-# a room of which some programs need a part, because a program links whole object files, and every shared library that one of them calls; and
-# sources that GCC compiles faster alone.
+# SOURCES are compiled eight at a time. APART are compiled alone:
+#   - a source whose unnamed namespace has a name of another source;
+#   - the sources of a room that some programs need in part, because a program links whole object files, and the shared libraries they call;
+#   - sources that GCC compiles faster alone, such as those with Eigen's templates.
 # USES are the rooms that this room may include; tests/layers checks every #include against it.
 add_library(frustumscreen_options INTERFACE)
 target_compile_features(frustumscreen_options INTERFACE cxx_std_20)
@@ -51,9 +52,9 @@ if(FRUSTUMSCREEN_UNITY)
 endif()
 include(cmake/precompiled.cmake)
 
-# Sets `sources` to files that include up to NUMBER sources each: reading the headers takes longer than compiling most sources. A source with
-# options of its own stays alone; its set_source_files_properties comes before this call. The files contain no absolute path, so that ccache finds them in
-# another clone.
+# Sets `sources` to files that include up to NUMBER sources each: reading the headers takes longer than compiling most sources. A source
+# with options of its own stays alone; its set_source_files_properties comes before this call. The files contain no absolute path, so that
+# ccache finds them in another clone.
 function(frustumscreen_together target number)
     if(NOT FRUSTUMSCREEN_UNITY)
         set(sources ${ARGN} PARENT_SCOPE)

@@ -223,7 +223,7 @@ class Table(unittest.TestCase):
         (self.folder / "kept").mkdir()
         (self.folder / "kept/calibration-0001.toml").write_text(TrueTable(1280, 0.4).calibration(SENSOR_M))
         self.config.write_text(self.config.read_text().replace("script = []", "script = [{ at_s = 0.3, button = 0 }]"))
-        note = "--anew is the old name of --from-start, which does the same; use --from-start"
+        note = "--anew is the old name of --from-start; use --from-start instead"
         for option, is_old in (("--from-start", False), ("--anew", True)):
             left = self.run_program("table", option, "--config", self.config, "--headless")
             self.assertEqual(left.returncode, 1)

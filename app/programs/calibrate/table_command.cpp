@@ -287,8 +287,7 @@ void add_table_command(CommandLine& app, CalibrateRequest& request, std::functio
     command.add_flag("--json", request.json, "print the crosses as JSON and end");
     command.callback([&request, &chosen, anew] {
         if (anew.count() > 0) {
-            fmt::print(stderr,
-                       "--anew is the old name of --from-start, which does the same; use --from-start\n");
+            fmt::print(stderr, "--anew is the old name of --from-start; use --from-start instead\n");
         }
         chosen = [&request] { return end_with(calibrate_table(request)); };
     });

@@ -66,7 +66,7 @@ Result<void> write_keys(const std::string& name, std::optional<std::string_view>
                "for the kiosk's settings:\n  [[exhibit.keys]]\n  name = \"{0}\"\n  public_key = \"{2}\"\n",
                name,
                password ? ", encrypted with your password"
-                        : ", without a password: whoever can read the file can sign packs",
+                        : " without a password, so anyone who can read the file can sign packs",
                pack::public_key_line(key.public_key()));
     return {};
 }
