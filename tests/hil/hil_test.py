@@ -105,6 +105,7 @@ class HilTest(unittest.TestCase):
         self.assertEqual((picture.width, picture.height), (truth.width, truth.height))
         seen, meant = screen.lit(picture), screen.lit(truth)
         self.assertGreater(screen.count(meant), 300, "the offline picture is dark: this pose proves nothing")
+        self.assertGreater(screen.count(seen), 0, "the picture that is shown is dark")
         for k, (a, b) in enumerate(zip(screen.centroid(seen, picture.width), screen.centroid(meant, truth.width))):
             self.assertAlmostEqual(a, b, delta=PIXELS, msg=f"centroid, {'xy'[k]}")
         for k, (a, b) in enumerate(zip(screen.box(seen, picture.width), screen.box(meant, truth.width))):

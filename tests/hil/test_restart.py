@@ -1,19 +1,24 @@
 """Tests that systemd restarts the exhibit after SIGTERM, SIGKILL and SIGSTOP, and when a device's thread or the renderer hangs."""
 
-import time
-
 import screen
 from bench import CONNECTOR, UNIT, eventually
 from hil_test import HilTest, LIT, long
 
 BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
 STOPPED_S = 0.5
+CUT_OFF = "a device did not stop in time"  # stop_signals.cpp
 CARD = "/dev/dri/card0"
-STOP = """read begin _ </proc/uptime
+# The main thread's schedstat: nanoseconds on a processor, nanoseconds that it waited for one (kernel: sched-stats.rst).
+STOP = """thread=/proc/$1/task/$1/schedstat
+read ran waited _ <$thread
+read begin _ </proc/uptime
 kill -TERM "$1"
-while kill -0 "$1" 2>/dev/null; do sleep 0.02; done
+while kill -0 "$1" 2>/dev/null; do
+    read new_ran new_waited _ <$thread && last_ran=$new_ran last_waited=$new_waited
+    sleep 0.02
+done 2>/dev/null
 read end _ </proc/uptime
-echo $begin $end "$(systemctl show --value -p ExecMainCode frustumscreen)"
+echo $begin $end $((last_ran - ran + last_waited - waited)) "$(systemctl show --value -p ExecMainCode frustumscreen)"
 """
 EXITED = "1"  # CLD_EXITED of waitid(2): not killed by the signal
 
@@ -42,15 +47,18 @@ class Restart(HilTest):
         self.tell_lit()
 
     def test_told_to_stop(self):
-        """It stops cleanly, within STOPPED_S."""
-        self.bench.machine.write("/tmp/stop.sh", STOP)
-        begun, begun_s = time.monotonic(), self.bench.machine.granted_s()
-        begin_s, end_s, code = self.bench.machine.check(f"sh /tmp/stop.sh {self.process}").split()
-        waited_s = time.monotonic() - begun - (self.bench.machine.granted_s() - begun_s)
-        took_s = float(end_s) - float(begin_s) - waited_s
-        print(f"  stopped after {1e3 * took_s:.0f} ms", flush=True)
-        self.assertLessEqual(took_s, STOPPED_S)
+        """It stops cleanly, and waits for its devices STOPPED_S at most. The time in which its main thread computes does not count: the
+        emulated processor needs 25 times as long as a kiosk's to free the exhibit's memory."""
+        machine = self.bench.machine
+        eventually(lambda: "-grow." not in machine.run("systemctl list-jobs").output, BACK_S, "the data partition still grows")
+        machine.write("/tmp/stop.sh", STOP)
+        begin_s, end_s, computed_ns, code = machine.check(f"sh /tmp/stop.sh {self.process}").split()
+        took_s, computed_s = float(end_s) - float(begin_s), 1e-9 * float(computed_ns)
+        print(f"  stopped after {1e3 * took_s:.0f} ms, of which it computed {1e3 * computed_s:.0f}", flush=True)
         self.assertEqual(code, EXITED, "it was ended by the signal and put nothing away")
+        self.assertLessEqual(took_s - computed_s, STOPPED_S)
+        if CUT_OFF in self.bench.journal():
+            self.assertGreater(computed_s, took_s / 2, "a device was waited for, until the exhibit ended without it")
         self.assert_restarted()
 
     def test_killed(self):
