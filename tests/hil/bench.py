@@ -134,7 +134,8 @@ class Bench:
         self.buttons = Mock("mock_buttons", "buttons", self._sockets, out)
         self.camera = Mock("mock_camera", "camera", self._sockets, out, "--at", "0s unplug")
         self.machine = Machine(files, disk, self._sockets, out, WIDTH, HEIGHT,
-                               {mock.usb.name: mock.usb for mock in self._mocks()})
+                               {mock.usb.name: mock.usb for mock in self._mocks()},
+                               device_processes=tuple(mock.process.pid for mock in self._mocks()))
 
     def _mocks(self):
         return (self.tracker, self.buttons, self.camera, *self.other_trackers.values())

@@ -85,8 +85,16 @@ class JsonLines:
 class Given:
     """Two clocks of the guest, which stop while a busy host makes the guest wait."""
 
-    granted_s: float  # time in which none of its processors waited for one of the host's
+    granted_s: float  # time in which neither its processors nor its mocked devices waited for one of the host's
     rested_s: float  # the part of it in which none of its processors had work
+
+    def after(self, took_s, processors, devices):
+        """The clocks after a further time. `processors`, `devices`: the seconds for which each ran, and for which it waited for one of the
+        host's processors."""
+        devices_s = max((waited for _, waited in devices), default=0.0)
+        rested_s = min(took_s - ran - waited for ran, waited in processors) - devices_s
+        return Given(self.granted_s + took_s - max(devices_s, *(waited for _, waited in processors)),
+                     self.rested_s + max(0.0, rested_s))
 
 
 @dataclass
@@ -101,7 +109,7 @@ class Ran:
 class Machine:
     """`files`: folder with linux, initrd, cmdline; `disk`: the kiosk's; `sockets`: a folder with a short name (a socket's
     path has 107 bytes at most); `logs`: where serial.log and qemu.log go; `usb`: name -> socket of a usbredir device that
-    listens there."""
+    listens there; `device_processes`: the numbers of the processes that mock them."""
 
     files: pathlib.Path
     disk: pathlib.Path
@@ -113,6 +121,7 @@ class Machine:
     processor: str = PROCESSOR
     processors: int = 2
     memory_mib: int = 1536
+    device_processes: tuple = ()
     _sticks: dict = field(default_factory=dict)
 
     def start(self):
@@ -242,23 +251,23 @@ class Machine:
         return self._monitor.answer({"execute": command, "arguments": arguments})
 
     def _scheduled(self):
-        """The time now, and for each of the guest's processors the seconds in which it ran, and those in which it was ready to run but the
-        host's processors were busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
-        files = [pathlib.Path(f"/proc/{self.pid}/task/{thread}/schedstat") for thread in self._threads]
-        words = [file.read_text(encoding="ascii").split() for file in files]
+        """The time now, and for each of the guest's processors and then each mocked device the seconds in which it ran, and those in which it
+        was ready to run but the host's processors were busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
+        files = [f"/proc/{self.pid}/task/{thread}/schedstat" for thread in self._threads]
+        files += [f"/proc/{process}/schedstat" for process in self.device_processes]
+        words = [pathlib.Path(file).read_text(encoding="ascii").split() for file in files]
         return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
 
     def given(self):
-        """The time that the host has granted the guest so far. Call it about every 50 ms. Less often, it cannot distinguish processors that
-        wait one after another from processors that wait at the same time; more often, a wait counts as rest until it ends.
+        """The time that the host has granted the guest so far; time in which a device waits for the host's processors is not granted either.
+        Call it about every 50 ms. Less often, it cannot distinguish processors that wait one after another from processors that wait at the
+        same time; more often, a wait counts as rest until it ends.
         """
         now, scheduled = self._scheduled()
         before, self._asked = self._asked, (now, scheduled)
-        took = now - before[0]
-        ran = [b[0] - a[0] for a, b in zip(before[1], scheduled)]
-        waited = [b[1] - a[1] for a, b in zip(before[1], scheduled)]
-        self._given = Given(self._given.granted_s + took - max(waited),
-                            self._given.rested_s + max(0.0, min(took - r - w for r, w in zip(ran, waited))))
+        spent = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(before[1], scheduled)]
+        count = len(self._threads)
+        self._given = self._given.after(now - before[0], spent[:count], spent[count:])
         return self._given
 
     def granted_s(self):
@@ -354,6 +363,10 @@ class Machine:
         else:
             self.monitor("device_add", driver=driver, id=name, bus="usb.0", **disk)
         self._sticks[name] = nodes
+
+    def slow_down(self, name, bytes_per_s):
+        """Reduces the limit of reading of a stick that has one."""
+        self.monitor("qom-set", path=f"/objects/{name}-pace", property="limits", value={"bps-read": bytes_per_s})
 
     def pull(self, name):
         """Pulls a stick out, even while the guest uses it."""

@@ -21,7 +21,7 @@ class Latency(HilTest):
             before = screen.centroid(screen.lit(self.bench.picture_of((*place_m, *UPRIGHT))), self.bench.machine.width)
             place_m = (STEP_M * (1 + number % 2), 0.0, 0.0)
             self.bench.place(place_m)
-            deadline = Patience.clock() + GIVE_UP_S
+            deadline = Patience.clock() + GIVE_UP_S * Patience.factor
             while True:
                 begin = time.monotonic()
                 picture = self.bench.screendump()

@@ -68,7 +68,8 @@ class Storms(HilTest):
         def chatter():
             for _ in range(15):
                 self.bench.buttons.tell("press", 1, "100ms")
-                time.sleep(0.2)
+                eventually(lambda: self.bench.buttons.tell("status")["pins"] >> 1 & 1, BACK_S, "the button stays down")
+                self.bench.machine.let_run(0.1)
 
         def chattered():
             chatter()

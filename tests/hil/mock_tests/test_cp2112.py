@@ -1,4 +1,7 @@
+import asyncio
 import os
+import time
+import types
 import unittest
 
 from mocks.buttons_console import ButtonsConsole
@@ -78,6 +81,32 @@ class SpecialCommand(unittest.TestCase):
             with self.assertRaises(ValueError) as refused:
                 self.console.execute(f"special {word}")
             self.assertIn("0, 1, 7 or off", str(refused.exception))
+
+
+class PressCommand(unittest.IsolatedAsyncioTestCase):
+    async def test_ends_when_the_host_has_noticed_it(self):
+        device = Cp2112()
+        device.link = types.SimpleNamespace(connected=True)
+        ButtonsConsole(device).execute("press 1 10ms")
+        await asyncio.sleep(0.1)
+        self.assertEqual(device.pins(), 0xFD, "it ended before anybody read it")
+        before_s, after_s = [], []
+        while True:
+            asked_s = time.monotonic()
+            if get(device, 3, 2) != bytes([3, 0xFD]):
+                break
+            before_s.append(asked_s)
+            after_s.append(time.monotonic())
+            await asyncio.sleep(0.005)
+        self.assertGreater(after_s[-1] - before_s[1], 0.05)
+
+    async def test_ends_in_time_without_a_host(self):
+        device = Cp2112()
+        device.link = types.SimpleNamespace(connected=False)
+        ButtonsConsole(device).execute("press 1 10ms")
+        self.assertEqual(device.pins(), 0xFD)
+        while device.pins() == 0xFD:
+            await asyncio.sleep(0.005)
 
 
 if __name__ == "__main__":

@@ -39,6 +39,14 @@ class Freezes(unittest.TestCase):
             stood = looks([(1, 0.1), (2, 0.1), (3, 0.1)], pause_at_s=0.14, pause_s=pause_s).stood()
             self.assertLess(stood.granted_s, 0.25)
 
+    def test_a_device_that_waits_for_the_host_is_none(self):
+        stood = Given(1.0, 1.0).after(0.5, processors=[(0.0, 0.0), (0.1, 0.0)], devices=[(0.0, 0.4), (0.01, 0.0)])
+        self.assertAlmostEqual(stood.granted_s, 1.1)
+        self.assertAlmostEqual(stood.rested_s, 1.0)
+        rested = Given(1.0, 1.0).after(0.5, processors=[(0.0, 0.0), (0.1, 0.05)], devices=[])
+        self.assertAlmostEqual(rested.granted_s, 1.45)
+        self.assertAlmostEqual(rested.rested_s, 1.35)
+
     def test_a_look_without_a_code_is_not_another_picture(self):
         stood = looks([(1, 1.0), (None, 0.5), (1, 0.5)]).stood(rests=True)
         self.assertAlmostEqual(stood.rested_s, 1.0, delta=2.0 * STEP_S)

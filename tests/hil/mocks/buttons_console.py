@@ -6,8 +6,14 @@ import time
 from .cp2112 import PINS, SPECIAL
 from .faults import parse_duration
 
+_USUAL_PRESS_S = 0.2
+_KNOWN_S = 0.05  # longer than the time for which the exhibit debounces
+_MAX_PRESS_S = 10.0
+_BOUNCE_S = 0.003  # between two edges of a bouncing contact
+_BOUNCES = 5
 HELP = f"""\
-press PIN [DURATION]   down, and up again after it (200 ms); pins are 0 to {PINS - 1}
+press PIN [DURATION]   down, and up again after it (200 ms); pins are 0 to {PINS - 1}. A press becomes longer on a busy host: it ends when
+                       the kernel's driver has seen it for {_KNOWN_S:g} s, and after {_MAX_PRESS_S:g} s if nothing reads the pins
 hold PIN               down until 'release PIN'
 release PIN
 bounce PIN [DURATION]  a press whose contacts bounce: bursts of edges when the button goes down and when it comes up
@@ -17,15 +23,12 @@ plug
 status                 pins, lamps, how often the host has read the pins
 help                   this text"""
 
-_USUAL_PRESS_S = 0.2
-_BOUNCE_S = 0.003  # between two edges of a bouncing contact
-_BOUNCES = 5
-
 
 class ButtonsConsole:
     def __init__(self, buttons):
         self._buttons = buttons
         self._alarm = None
+        self._presses = {}  # pin -> the call that ends its press
 
     def execute(self, line):
         name, *words = line.split() or [""]
@@ -33,7 +36,9 @@ class ButtonsConsole:
             duration = _duration(words[1]) if len(words) == 2 else _USUAL_PRESS_S
             self._press(_pin(words[0]), duration, name == "bounce")
         elif name in ("hold", "release") and len(words) == 1:
-            self._buttons.hold(_pin(words[0]), name == "hold")
+            pin = _pin(words[0])
+            self._forget(pin)
+            self._buttons.hold(pin, name == "hold")
         elif name == "special" and len(words) == 1:
             self._special(words[0])
         elif name == "unplug" and len(words) <= 1:
@@ -50,15 +55,30 @@ class ButtonsConsole:
         return {"t_ns": time.monotonic_ns()}
 
     def _press(self, pin, duration, bounces):
-        edges = 2 * _BOUNCES if bounces else 0
-        for begin, down in ((0.0, True), (duration, False)):
-            for k in range(edges + 1):
-                at_end = down if k % 2 == 0 else not down
-                if begin == 0.0 and k == 0:
-                    self._buttons.hold(pin, at_end)
-                else:
-                    loop = asyncio.get_running_loop()
-                    loop.call_later(begin + k * _BOUNCE_S, self._buttons.hold, pin, at_end)
+        self._forget(pin)  # a press during the previous one extends it
+        self._move(pin, True, bounces)
+        self._come_up_after(duration, pin, duration, bounces)
+
+    def _come_up(self, pin, held_s, bounces):
+        """Ends a press, but not before the host can have noticed it: a busy host may give the guest no time while the button is down."""
+        is_known = self._buttons.noticed_for_s(pin) >= _KNOWN_S or not self._buttons.link.connected
+        if is_known or held_s >= _MAX_PRESS_S:
+            self._move(pin, False, bounces)
+        else:
+            self._come_up_after(_KNOWN_S / 5, pin, held_s + _KNOWN_S / 5, bounces)
+
+    def _come_up_after(self, seconds, pin, *held):
+        self._presses[pin] = asyncio.get_running_loop().call_later(seconds, self._come_up, pin, *held)
+
+    def _forget(self, pin):
+        if pin in self._presses:
+            self._presses.pop(pin).cancel()
+
+    def _move(self, pin, down, bounces):
+        """Presses or releases the button now; contacts that bounce end at the new level."""
+        self._buttons.hold(pin, down)
+        for k in range(1, 2 * _BOUNCES + 1 if bounces else 1):
+            asyncio.get_running_loop().call_later(k * _BOUNCE_S, self._buttons.hold, pin, down if k % 2 == 0 else not down)
 
     def _special(self, word):
         bits = {"off": 0, **{str(pin): self._buttons.special_bits() | bit for pin, bit in SPECIAL.items()}}

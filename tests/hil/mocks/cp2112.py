@@ -5,6 +5,8 @@ part and version, 0x06 SMBus settings, 0x20 strings that may still be written. N
 have a special function; while it is on, they are no GPIO. Like all settings of 0x02 it is in RAM, and off after a start.
 """
 
+import time
+
 from .usb_device import IN, INTERRUPT, Endpoint, UsbDevice
 
 PINS = 8
@@ -39,6 +41,7 @@ class Cp2112(UsbDevice):
         self.reads = 0  # how often the host read the pins
         self.lamps = 0  # the levels of pins that the host drives
         self._pressed = 0
+        self._read_down_s = [[] for _ in range(PINS)]  # for each pressed pin, when the host read it: first, second, last
         self.start_anew()
 
     def start_anew(self):
@@ -50,6 +53,13 @@ class Cp2112(UsbDevice):
 
     def hold(self, pin, down):
         self._pressed = self._pressed | 1 << pin if down else self._pressed & ~(1 << pin)
+        self._read_down_s[pin].clear()
+
+    def noticed_for_s(self, pin):
+        """How long the host's driver has known at least that this pin is down. The driver has received a read's answer when it asks for
+        the next one, so this is the time from the second read to the last."""
+        times_s = self._read_down_s[pin]
+        return times_s[-1] - times_s[1] if len(times_s) > 1 else 0.0
 
     def set_special(self, bits):
         outputs, push_pull, _, divider = self._features[_DIRECTIONS]
@@ -72,6 +82,9 @@ class Cp2112(UsbDevice):
             return None
         if number == _READ_PINS:
             self.reads += 1
+            for pin, times_s in enumerate(self._read_down_s):
+                if self._pressed >> pin & 1:
+                    times_s[2:] = [time.monotonic()]
             return bytes([number, self.pins()])
         data = self._features.get(number)
         return None if data is None else bytes([number]) + data
