@@ -2,14 +2,14 @@
 """Finds flaky tests, those that fail now and then; `./test flakes` calls this. Exit status 1: something failed.
 
 Each test of `ctest` must pass 20 runs while six busy loops load the machine, three tests at a time, and five runs under each sanitizer
-that continuous integration uses for it. Then the emulated machines run five times (./test hil, ./test image), and the whole of continuous
-integration three times.
+that continuous integration uses for it. Then the whole of continuous integration must pass three times, and the emulated machines five
+times (./test hil, ./test image), of which three are parts of continuous integration.
 
-out/flakes keeps a record of each run that passed, so a hunt that was stopped is continued. The runs of the emulated machines and of
-continuous integration start again from zero with another commit or another change of the working tree. A test of ctest starts again when
-one of its inputs changes; one additional run under strace records the inputs (inputs.py). A test that asks git, or that cannot run under
-strace, as with a sanitizer, also starts again with each new commit. Tests that have never passed all their runs come first, and of these
-the tests with threads.
+out/flakes keeps a record of each run that passed, so a hunt that was stopped is continued. The runs of continuous integration start again
+from zero with each change of a file, those of the emulated machines unless only pages and tests of ctest have changed. A test of ctest
+starts again when one of its inputs changes; one additional run under strace records the inputs (inputs.py). A test that asks git, or that
+cannot run under strace, as with a sanitizer, also starts again with each new commit. Tests that have never passed all their runs come
+first, and of these the tests with threads.
 
 The hunt skips tests that only compute, because the load of the machine cannot change their result. The label 'computes' marks such tests
 with threads. The run under strace finds the others: the test is a program of the build that has one process and one thread from start to
@@ -26,8 +26,8 @@ import pathlib
 import signal
 import subprocess
 import sys
-import time
 
+import whole
 from hunt import Hunt, tests_of
 from inputs import Places
 
@@ -59,33 +59,6 @@ def environment(preset):
     return {name: value.replace("${sourceDir}", os.fspath(ROOT)) for name, value in found["environment"].items()}
 
 
-class Runs:
-    """The names of a commit's runs that passed, one a line in a file, and the outputs of the runs that failed."""
-
-    def __init__(self, folder):
-        self._folder = folder
-        folder.mkdir(parents=True, exist_ok=True)
-        self._passed_file = folder / "passed.txt"
-        self._passed = set(self._passed_file.read_text(encoding="utf-8").splitlines()) if self._passed_file.exists() else set()
-        self.failed = []
-
-    def make(self, name, command):
-        if name in self._passed:
-            return
-        begun = time.monotonic()
-        ran = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-        passed = ran.returncode == 0
-        print(f"   {name}: {'passed' if passed else 'FAILED'} in {time.monotonic() - begun:.0f} s", flush=True)
-        if passed:
-            with open(self._passed_file, "a", encoding="utf-8") as file:
-                file.write(f"{name}\n")
-            return
-        log = self._folder / f"{name.replace(' ', '_')}.log"
-        log.write_bytes(ran.stdout)
-        print(f"   its output is in {log}", flush=True)
-        self.failed.append(name)
-
-
 def hunt_tests(hunt, places, loops, parallel, label=None):
     tests = [test for test in tests_of(places) if label is None or label in test.labels]
     labelled = [test for test in tests if "computes" in test.labels]
@@ -108,7 +81,7 @@ def main():
     parser.add_argument("--sanitized", metavar="N", type=int, default=5, help="runs of each test under a sanitizer (5)")
     parser.add_argument("--loops", metavar="N", type=int, default=6, help="busy loops beside them (6)")
     parser.add_argument("--parallel", metavar="N", type=int, default=3, help="tests of ctest at a time (3)")
-    parser.add_argument("--boots", metavar="N", type=int, default=5, help="runs of the emulated machines (5)")
+    parser.add_argument("--boots", metavar="N", type=int, default=5, help="runs of the emulated machines, with those in .ci/run (5)")
     parser.add_argument("--ci", metavar="N", type=int, default=3, help="runs of .ci/run (3)")
     arguments = parser.parse_args()
 
@@ -125,13 +98,7 @@ def main():
         hunt = Hunt(places, STATE / preset, commit(), arguments.sanitized, environment(preset))
         hunt_tests(hunt, places, arguments.loops, arguments.parallel, label)
         failed += [f"{name} ({preset})" for name in hunt.failed]
-    runs = Runs(STATE / commit())
-    for number in range(1, arguments.boots + 1):
-        runs.make(f"hil {number}", ["./test", "hil"])
-        runs.make(f"image {number}", ["./test", "image"])
-    for number in range(1, arguments.ci + 1):
-        runs.make(f"ci {number}", [".ci/run"])
-    failed += runs.failed
+    failed += whole.repeat(ROOT, STATE, arguments.boots, arguments.ci)
     print(f"== {len(failed)} failed" + "".join(f"\n   {name}" for name in failed))
     return 1 if failed else 0
 

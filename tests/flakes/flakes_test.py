@@ -14,6 +14,7 @@ import unittest.mock
 
 import hunt
 import inputs
+import whole
 
 RUN_TEST = pathlib.Path(__file__).resolve().parents[1] / "house" / "run_test.sh"
 TIMES = 3
@@ -245,6 +246,60 @@ class Programs(MadeUpRepository):
         self.compile("sum", "int main(int count, char**) { return 2 * count - 2; }\n")
         waiting = hunt.Hunt(self.places, self.root / "out" / "flakes", "first", TIMES).waiting(hunt.tests_of(self.places))
         self.assertEqual([test.name for test in waiting], ["sum"])
+
+
+
+class Whole(unittest.TestCase):
+    """A repository whose runs are scripts that each write a line."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root, self.counted = pathlib.Path(folder.name, "repository"), pathlib.Path(folder.name, "counted")
+        (self.root / "docs").mkdir(parents=True)
+        self.git("init", "--quiet")
+        self.write("test", f'#!/bin/sh\necho "$1" >>{self.counted}\n')
+        self.write(".ci/run", f"#!/bin/sh\necho ci >>{self.counted}\n")
+        self.write("docs/page.md", "one\n")
+        self.write("app/program.cpp", "one\n")
+
+    def git(self, *words):
+        subprocess.run(["git", "-C", self.root, *words], check=True, capture_output=True)
+
+    def write(self, name, text):
+        file = self.root / name
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        file.chmod(0o755)
+        self.git("add", name)
+
+    def repeat(self, boots=3, times=2):
+        """(new runs of hil, of image, of continuous integration, names that failed)"""
+        self.counted.write_text("", encoding="utf-8")
+        with contextlib.redirect_stdout(io.StringIO()):
+            failed = whole.repeat(self.root, self.root.parent / "state", boots, times)
+        lines = self.counted.read_text(encoding="utf-8").splitlines()
+        return *(lines.count(name) for name in ("hil", "image", "ci")), failed
+
+    def test_continuous_integration_contains_the_machines(self):
+        self.assertEqual(self.repeat(), (1, 1, 2, []))
+        self.assertEqual(self.repeat(), (0, 0, 0, []))
+        self.assertEqual(self.repeat(boots=4), (1, 1, 0, []))
+
+    def test_a_page_costs_continuous_integration_alone(self):
+        self.repeat()
+        self.write("docs/page.md", "two\n")
+        self.assertEqual(self.repeat(times=1), (0, 0, 1, []))
+
+    def test_the_product_costs_all(self):
+        self.repeat()
+        (self.root / "app/program.cpp").write_text("two\n", encoding="utf-8")  # not in the index
+        self.assertEqual(self.repeat(), (1, 1, 2, []))
+
+    def test_what_failed_runs_again(self):
+        self.write("test", f'#!/bin/sh\necho "$1" >>{self.counted}\n[ "$1" = hil ]\n')
+        self.assertEqual(self.repeat(), (1, 1, 2, ["image"]))
+        self.assertEqual(self.repeat(), (0, 1, 0, ["image"]))
 
 
 if __name__ == "__main__":
