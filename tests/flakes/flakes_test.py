@@ -4,6 +4,7 @@
 import contextlib
 import io
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -31,6 +32,10 @@ class MadeUpRepository(unittest.TestCase):
             each.mkdir(parents=True)
         self.places = inputs.Places(self.root, self.build, self.root.parent / "shared", self.root.parent / "git")
         self.listed = []
+        without_times = unittest.mock.patch.dict("os.environ")
+        without_times.start()
+        self.addCleanup(without_times.stop)
+        os.environ.pop("FRUSTUMSCREEN_TIMES", None)  # artificial tests are not listed among the slowest
 
     def add(self, name, *command, labels=""):
         words = " ".join(f'"{word}"' for word in [RUN_TEST, name, *command])

@@ -79,7 +79,7 @@ class Runner:
     def __init__(self, words, whole, source, build):
         self.words, self.whole = words, whole
         kept = {name: value for name, value in os.environ.items() if name.startswith("MALLOC_")}  # set by run_test.sh
-        self.variables = kept | {"PATH": f"{build / 'bin'}:/usr/bin:/bin", "LC_ALL": "C.UTF-8", "SOURCE": str(source), "BUILD": str(build),
+        self.variables = kept | {"PATH": f"{build / 'bin'}:/usr/bin:/bin", "LC_ALL": "C.UTF-8", "PYTHONDONTWRITEBYTECODE": "1", "SOURCE": str(source), "BUILD": str(build),
                           "SHELF": str(whole / "shelf")}
 
     def run_page(self, name, commands):
@@ -89,7 +89,13 @@ class Runner:
         failure = self.run(self.words["everywhere"] + page.get("prepare", ""), folder)
         if failure:
             yield f"{name}: it could not be prepared: {failure}"
-            return
+        else:
+            yield from self._run_commands(page, commands, folder)
+        failure = self.run(page.get("finish", ""), folder)
+        if failure:
+            yield f"{name}: what was prepared could not be ended: {failure}"
+
+    def _run_commands(self, page, commands, folder):
         exports = ""
         for command in commands:
             text = re.sub(r"(?<=\w)\.\.\.", "", command.required)
@@ -102,7 +108,6 @@ class Runner:
                 yield f"{command.place}: {command.text}\n    {failure}"
             if text.startswith("export "):
                 exports += text + "\n"
-        self.run(page.get("finish", ""), folder)
 
     def run(self, script, folder):
         """None, or a text that says what went wrong."""
