@@ -14,6 +14,15 @@ awk '
         wants_reason = 0
         reason = ""
     }
+    # A Python program with verbosity=2; a test that has a description writes two lines.
+    /^test_[^ ]+ \(/ { name = $1 }
+    / \.\.\. skipped / && name != "" {
+        reason = $0
+        sub(/^.* \.\.\. skipped ./, "", reason)
+        sub(/.$/, "", reason)
+        lines[++count] = "   " name ": " reason
+        name = reason = ""
+    }
     END {
         if (count) {
             print "== " count (count == 1 ? " test was" : " tests were") " skipped"

@@ -338,7 +338,7 @@ TEST(LayeredDepth, AnObjectThatCameLaterHidesAndIsHiddenInThePicture) {
     EXPECT_GT(seen, 10'000U);
 }
 
-TEST(LayeredDepth, ASecondPictureAllocatesNothing) {
+TEST(LayeredDepth, ASecondPictureOfTheSameSizeKeepsItsMemory) {
     const LayeredDepth layers = seen_spheres().patch(3);
     DepthPicture picture = empty_picture({0.0, 0.3, 0.4});
     splat(layers, picture);

@@ -227,9 +227,7 @@ TEST_F(CellsOnShow, AreCountedAndReleasedWithTheirArtifact) {
 /// The finer level of both cells takes twice the deadline, the coarser one a third.
 TEST_F(CellsOnShow, AreDrawnMoreCoarselyWhereTimeIsShort) {
     load(pack_of_cells(2, {slide(true)}), "auto");
-    if (cells().uses().size() < 4) {
-        GTEST_SKIP() << "one level is enough on this table";
-    }
+    ASSERT_EQ(cells().uses().size(), 4U) << "two levels of each cell";
     upload();
     const auto triangles_drawn = [&](double ms_per_triangle) {
         scene::FrameCost cost;

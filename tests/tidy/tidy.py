@@ -74,11 +74,12 @@ class Analysis:
         self._salt = checks + output_of(TOOL, "--version").encode()
 
     def _key(self, file):
-        """The hash of checks, clang-tidy's version and the preprocessed text, without comments and line numbers."""
+        """The hash of checks, clang-tidy's version and the preprocessed text, without line numbers. Comments count: some name an argument,
+        and some switch a check off."""
         words = shlex.split(self._commands[file]["command"])
         compiler = next(k for k, word in enumerate(words) if re.search(r"(\+\+|cc)(-\d+)?$", word))
         end = words.index("-o")
-        text = subprocess.run([*words[compiler:end], "-E", "-P", file], capture_output=True, check=True, cwd=self._build).stdout
+        text = subprocess.run([*words[compiler:end], "-E", "-P", "-C", file], capture_output=True, check=True, cwd=self._build).stdout
         salt = self._salt + NOT_IN_TESTS.encode() if file in self._tests else self._salt
         return hashlib.sha256(salt + text.replace(os.fsencode(ROOT), b"")).hexdigest()
 
