@@ -123,7 +123,7 @@ endfunction()
 
 # The tests of code that reads bytes from outside or shares memory between threads. They run under the sanitizers for every change.
 add_custom_target(outside)
-# Of these, the tests of code that shares memory between threads. They run under the thread sanitizer.
+# The subset that tests code that shares memory between threads. They run under the thread sanitizer.
 add_custom_target(threads)
 
 # A test's command begins with ${run_test} and the test's name.

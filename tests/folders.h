@@ -1,4 +1,4 @@
-/// Where the tests find the house, its programs and what lies beside it.
+/// The folders of the source, of the build and of the shared test data.
 ///
 /// Shape   absolute paths, without a slash at their end.
 /// Source  CMake. folders.cpp alone is compiled with them: every other file has the same command line in each clone, so that

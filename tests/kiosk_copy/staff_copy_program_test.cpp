@@ -58,7 +58,7 @@ TEST_F(StaffCopy, TheButtonsAloneDoWhatASignatureDoes) {
     }
 }
 
-/// Comments may name people, and nobody signed that they go out.
+/// Comments may name people, and the signature does not allow them to leave the kiosk.
 TEST_F(StaffCopy, SettingsHaveTheSameValuesAndNoComments) {
     put("a/kiosk.toml", settings_of(museum.key, "[projector.mount] # Anna's ladder\nx_m = 0.1\ny_m = 0.7\n"
                                                 "height_m = 1.4285714285714286\n"));

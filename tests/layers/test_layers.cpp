@@ -1,4 +1,4 @@
-// Holds every #include of the house against the table of rooms in cmake/rooms.cmake's terms.
+// Compares every #include of the project with the rooms' declared dependencies (cmake/rooms.cmake).
 #include "tests/folders.h"
 
 #include <gtest/gtest.h>
@@ -233,7 +233,7 @@ TEST(Layers, TheKiosksProgramLinksNothingOfTheBake) {
     }
 }
 
-/// Secret keys are for who signs: what runs by itself on the kiosk has no code for them.
+/// Only people sign, on their own computers: the kiosk's programs have no code for secret keys.
 TEST(Layers, NoProgramOfTheKioskHoldsSecretKeys) {
     int looked_at = 0;
     for (const std::string program : {"frustumscreen", "frustumscreen-import", "frustumscreen-pack"}) {

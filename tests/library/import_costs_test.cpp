@@ -1,4 +1,4 @@
-// Limits on the cost of a stick: entries, time, work, copies in vain.
+// Limits on the cost of a stick: entries, time, work, unnecessary copies.
 #include "tests/library/stick_fixture.h"
 
 namespace frustumscreen::library {

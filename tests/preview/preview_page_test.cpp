@@ -123,7 +123,6 @@ TEST_F(PreviewPage, APackWithoutTextsAndPlacesHasAPageToo) {
               0);
 }
 
-/// RFC 4648, section 10.
 TEST(TorchPictures, AreWhatTheTorchShowsAtFullIntensity) {
     const image::Image8 texture(1, 2, {188, 0, 255, 100}); // 0.5, 0 and 1 in linear light
     image::Image8 layer(1, 2, {0, 188, 255, 255});
@@ -139,6 +138,7 @@ TEST(TorchPictures, AreWhatTheTorchShowsAtFullIntensity) {
         << "0.25 in linear light";
 }
 
+/// RFC 4648, section 10.
 TEST(Base64, IsThatOfTheStandard) {
     constexpr std::array<std::pair<const char*, const char*>, 7> vectors{{{"", ""},
                                                                           {"f", "Zg=="},

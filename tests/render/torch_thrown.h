@@ -23,7 +23,7 @@ struct Thrown {
     glm::dvec3 colour{1.0};
 };
 
-/// Where a place is for a content.
+/// A place in the coordinates of a torch's content.
 struct At {
     glm::dvec2 share{0.0}; ///< (0, 0) top left, (1, 1) bottom right
     double width_mm = 0.0; ///< of the whole content at that depth

@@ -36,7 +36,7 @@ struct Pinned {
     [[nodiscard]] scene::PlacedWindow placed() const {
         return {.surface = &view.surface, .table_from_window = view.table_from_window, .parts = parts};
     }
-    /// Of the window, in the frame of the prop whose world it shows.
+    /// The window's plane in the frame of the prop whose world it shows.
     [[nodiscard]] geometry::Plane plane() const {
         const glm::dmat3 turn(view.window_from_prop / view.scale);
         return {.normal = glm::transpose(turn) * glm::dvec3(0.0, 0.0, 1.0),

@@ -166,7 +166,7 @@ TEST(RunLevels, OfAFixedTechniqueStay) {
     EXPECT_FALSE(show.upload("level2"));
 }
 
-/// Of a texture's mip levels down to a sixteenth.
+/// The bytes of a texture and its mip levels down to a sixteenth.
 std::uint64_t bytes_with_mips(int width, int height) {
     std::uint64_t texels = 0;
     for (int mip = 0; mip <= 4; ++mip) {

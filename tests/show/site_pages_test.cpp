@@ -104,7 +104,7 @@ protected:
         }
         return regions;
     }
-    /// Of the pages that are there, read once more.
+    /// The bytes of all loaded pages, after another read of each.
     [[nodiscard]] std::uint64_t bytes_of_pages_there() {
         std::uint64_t bytes = 0;
         for (const residency::PageName& page : residency::pages_of(*known_)) {

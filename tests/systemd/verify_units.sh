@@ -55,21 +55,21 @@ if command -v systemd-analyze >/dev/null && [[ -d /usr/lib/systemd/system ]]; th
     install -D -m 755 /bin/sh "$root/bin/sh" # Debian's own, which a unit calls
     said=$(systemd-analyze verify --root="$root" "$unit" 2>&1) || die "systemd-analyze verify: $said"
     # For an unknown key the tool only prints a warning.
-    grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts"
+    grep frustumscreen <<<"$said" && die "systemd-analyze verify warns"
     locked_in() { # UNIT TENTHS: the exposure is no larger
         systemd-analyze security --no-pager --offline=true --threshold="$2" --root="$root" "$1" >"$root/security" ||
-            die "$1 is locked in less than it was: $(grep '✗' "$root/security")"
+            die "$1 has more privileges than allowed: $(grep '✗' "$root/security")"
     }
     locked_in frustumscreen.service 16
     said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-safe.service" 2>&1) || die "systemd-analyze verify: $said"
-    grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the safe picture"
+    grep frustumscreen <<<"$said" && die "systemd-analyze verify warns about the safe picture"
     locked_in frustumscreen-safe.service 4
     said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-calibrate.path" "$units/frustumscreen-calibrate.service" 2>&1) ||
         die "systemd-analyze verify: $said"
-    grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the calibration"
+    grep frustumscreen <<<"$said" && die "systemd-analyze verify warns about the calibration"
     locked_in frustumscreen-calibrate.service 16
     said=$(systemd-analyze verify --root="$root" "$units/frustumscreen-watchdog.service" 2>&1) || die "systemd-analyze verify: $said"
-    grep frustumscreen <<<"$said" && die "systemd-analyze verify has doubts of the watchdog"
+    grep frustumscreen <<<"$said" && die "systemd-analyze verify warns about the watchdog"
     locked_in frustumscreen-watchdog.service 4
     locked_in frustumscreen-step@reboot.service 11
     # The units of sticks, for the stick stick1p1; the programs that they start and their sandbox exist.
