@@ -16,7 +16,8 @@ export MALLOC_TRIM_THRESHOLD_=1000000000 MALLOC_MMAP_THRESHOLD_=1000000000
 export PULSE_RUNTIME_PATH=$TMPDIR/pulse
 # Caches of libraries belong to this clone, not to the home folder, and Python leaves no bytecode beside its sources.
 cache=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/out/test_cache
-mkdir -p -m 1777 "$cache" "$cache/mesa" "$cache/matplotlib" # some tests act as another user
+mkdir -p "$cache/mesa" "$cache/matplotlib"
+chmod 1777 "$cache/mesa" "$cache/matplotlib" # some tests act as another user
 export MESA_SHADER_CACHE_DIR=$cache/mesa MPLCONFIGDIR=$cache/matplotlib PYTHONDONTWRITEBYTECODE=1
 export PATH=/usr/bin:/bin:$PATH # for Debian's Python; another one may lack its modules, and may start ten times slower
 name=$1
