@@ -7,18 +7,22 @@ from hil_test import HilTest, LIT, long
 BACK_S = 60.0  # the watchdog's time, and a start on a slow processor
 STOPPED_S = 0.5
 CUT_OFF = "a device did not stop in time"  # stop_signals.cpp
+DEVICE_THREADS = {"tracker", "panel", "sound", "camera", "connectors"}
 CARD = "/dev/dri/card0"
-# The main thread's schedstat: nanoseconds on a processor, nanoseconds that it waited for one (kernel: sched-stats.rst).
+# Prints the uptime before and after the stop, what the main thread used of it, the exit's kind, and the threads that were seen last. The
+# main thread's schedstat has nanoseconds on a processor and nanoseconds that it waited for one (kernel: sched-stats.rst).
 STOP = """thread=/proc/$1/task/$1/schedstat
 read ran waited _ <$thread
 read begin _ </proc/uptime
 kill -TERM "$1"
 while kill -0 "$1" 2>/dev/null; do
     read new_ran new_waited _ <$thread && last_ran=$new_ran last_waited=$new_waited
+    new_threads=$(cat /proc/$1/task/*/comm) && threads=$new_threads
     sleep 0.02
 done 2>/dev/null
 read end _ </proc/uptime
 echo $begin $end $((last_ran - ran + last_waited - waited)) "$(systemctl show --value -p ExecMainCode frustumscreen)"
+echo "$threads"
 """
 EXITED = "1"  # CLD_EXITED of waitid(2): not killed by the signal
 
@@ -52,13 +56,14 @@ class Restart(HilTest):
         machine = self.bench.machine
         eventually(lambda: "-grow." not in machine.run("systemctl list-jobs").output, BACK_S, "the data partition still grows")
         machine.write("/tmp/stop.sh", STOP)
-        begin_s, end_s, computed_ns, code = machine.check(f"sh /tmp/stop.sh {self.process}").split()
+        figures, *threads = machine.check(f"sh /tmp/stop.sh {self.process}").splitlines()
+        begin_s, end_s, computed_ns, code = figures.split()
         took_s, computed_s = float(end_s) - float(begin_s), 1e-9 * float(computed_ns)
         print(f"  stopped after {1e3 * took_s:.0f} ms, of which it computed {1e3 * computed_s:.0f}", flush=True)
         self.assertEqual(code, EXITED, "it was ended by the signal and put nothing away")
         self.assertLessEqual(took_s - computed_s, STOPPED_S)
-        if CUT_OFF in self.bench.journal():
-            self.assertGreater(computed_s, took_s / 2, "a device was waited for, until the exhibit ended without it")
+        if CUT_OFF in self.bench.journal():  # rightly, if nothing but memory was left to free
+            self.assertEqual(DEVICE_THREADS & set(threads), set(), "these devices did not stop in time")
         self.assert_restarted()
 
     def test_killed(self):
