@@ -10,7 +10,8 @@ processor_s() {
     echo $(((fields[15] + fields[16]) / $(getconf CLK_TCK)))
 }
 
-# Runs a part, unless minute LATEST-BEGIN of the run has come. A part that still runs at minute END is stopped. Both are failures.
+# Runs a part, unless minute LATEST-BEGIN of the run has come. A part that still runs at minute END is stopped. Both are failures,
+# unless may_lack_time is set.
 part() { # NAME LATEST-BEGIN END COMMAND...
     local name=$1 latest=$2 end=$3 begun=$SECONDS begun_s result=passed status=0
     shift 3
@@ -25,16 +26,8 @@ part() { # NAME LATEST-BEGIN END COMMAND...
             ((SECONDS < 60 * end)) || result="ended at minute $end; run $* by hand"
         fi
     fi
-    [[ $result == passed ]] || failed+=("$name")
+    [[ $result == passed || ($result != FAILED && -n ${may_lack_time-}) ]] || failed+=("$name")
     rows+=("$(printf '%-14s %5d s %6d s   %s' "$name" $((SECONDS - begun)) $(($(processor_s) - begun_s)) "$result")")
-}
-
-# As part, but only a command that fails is a failure, not one that has no time.
-part_if_time() { # as part
-    part "$@"
-    if ((${#failed[@]})) && [[ ${failed[-1]} == "$1" && ${rows[-1]} != *FAILED ]]; then
-        unset 'failed[-1]'
-    fi
 }
 
 # Prints the table and then, in at most ten lines, each part that failed with its log's path and the words of its tests.

@@ -41,8 +41,6 @@ fi
 folder=build/$preset
 log=build/$preset.log
 mkdir -p build
-exec {lock}>"build/$preset.lock"
-flock "$lock" # two builds must not write to one folder at the same time
 # Ends when the process that started it has ended.
 say_progress() {
     local step

@@ -19,7 +19,6 @@ numbers outside GoogleTest, because strace does not see reads of a clock.
 
 import argparse
 import concurrent.futures
-import hashlib
 import json
 import os
 import pathlib
@@ -45,11 +44,7 @@ def output_of(*command):
 
 def commit():
     """A name that identifies this commit and the changes of the working tree."""
-    changes = output_of("git", "diff", "HEAD") + output_of("git", "ls-files", "--others", "--exclude-standard")
-    name = output_of("git", "rev-parse", "--short", "HEAD").decode().strip()
-    if changes:
-        name += "-" + hashlib.sha256(changes).hexdigest()[:8]
-    return name
+    return f"{output_of('git', 'rev-parse', '--short', 'HEAD').decode().strip()}-{whole.state(ROOT, whole.ALL)}"
 
 
 def environment(preset):

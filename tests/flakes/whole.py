@@ -5,7 +5,6 @@ are the same, continuous integration as long as all files are.
 """
 
 import hashlib
-import os
 import subprocess
 import time
 
@@ -48,7 +47,7 @@ class Runs:
         self.failed.append(name)
         log = self._folder / f"{name}_{self.failed.count(name)}.log"
         log.write_bytes(ran.stdout)
-        print(f"   its output is in {os.fspath(log)}", flush=True)
+        print(f"   its output is in {log}", flush=True)
         return False
 
 

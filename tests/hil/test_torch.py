@@ -1,5 +1,6 @@
 """Tests a torch in the hand, the third sensor of the tracker's mock. Its light sweeps over the artifact; the pixels that
-`frustumscreen render --torch` lights change, and no others beyond the tolerance. Its beam rises, so that it never meets the table, where a lamp's own light is shown."""
+`frustumscreen render --torch` lights change, and no others beyond the tolerance. Its beam rises, so that it never meets the table, where a lamp's own
+light is shown."""
 
 import math
 import pathlib

@@ -1,6 +1,6 @@
 """Tests a window on the table: the seventh button pins the view through the prop. On the screen it must be at the place where the same
-program puts it on this machine without a screen, and equal `frustumscreen render --pin` within the tolerance. No frame waits for it, and it ends
-with the visit."""
+program puts it on this machine without a screen, and equal `frustumscreen render --pin` within the tolerance. No frame waits for it, and
+it ends with the visit."""
 
 import json
 import pathlib

@@ -40,11 +40,13 @@ class Parts(unittest.TestCase):
         self.assertIn("ended at minute 1; run sleep 30 by hand", lines[0])
 
     def test_a_part_that_may_lack_time(self):
-        status, lines = self.run_parts("part_if_time one 0 86 true; SECONDS=59; part_if_time two 85 1 sleep 30")
+        status, lines = self.run_parts("may_lack_time=true part one 0 86 true; SECONDS=59; may_lack_time=true part two 85 1 sleep 30")
         self.assertEqual((status, len(lines)), (0, 2))
-        status, lines = self.run_parts("part_if_time one 85 86 bash -c 'exit 124'")  # not of timeout
+        status, lines = self.run_parts("may_lack_time=true part one 85 86 bash -c 'exit 124'")  # not of timeout
         self.assertEqual(status, 1)
         self.assertTrue(lines[0].endswith("FAILED"), lines)
+        status, _ = self.run_parts("may_lack_time=true part one 0 86 true; part two 0 86 true")  # set for one part alone
+        self.assertEqual(status, 1)
 
     def test_all_failures_are_in_the_last_ten_lines(self):
         for count in range(1, 8):
@@ -80,9 +82,9 @@ class WhyFailed(unittest.TestCase):
 
     def test_checks_of_scripts_pages_and_units(self):
         self.assertEqual(self.said("\nIn ./run line 3:\necho $x\n     ^-- SC2086: quote it\n\nx.cpp:3:1: error: no\ntests/x.py:1:1: 'os' imported\n"
-                                   "docs/packs.md:7: frustumscreen-pack x\nfailed: frustumscreen.service\nfine\n"),
+                                   "docs/packs.md:7: frustumscreen-pack x\nfailed: frustumscreen.service\ntests/a.sh: line 3: no\nfine\n"),
                          ["In ./run line 3: | echo $x | ^-- SC2086: quote it", "x.cpp:3:1: error: no", "tests/x.py:1:1: 'os' imported",
-                          "docs/packs.md:7: frustumscreen-pack x", "failed: frustumscreen.service"])
+                          "docs/packs.md:7: frustumscreen-pack x", "failed: frustumscreen.service", "tests/a.sh: line 3: no"])
 
     def test_otherwise_the_last_lines(self):
         self.assertEqual(self.said("".join(f"{k}\n" for k in range(30)), 3), ["27", "28", "29"])
@@ -91,6 +93,17 @@ class WhyFailed(unittest.TestCase):
 
     def test_no_more_than_asked_for(self):
         self.assertEqual(len(self.said("failed: a\n" * 30, 4)), 4)
+
+
+class Skipped(unittest.TestCase):
+    def test_of_googletest_and_unittest(self):
+        log = ("a_test.cpp:7: Skipped\nno GPU\n\n[  SKIPPED ] A.Draws (2 ms)\ntest_units (b.Units) ... ok\ntest_one (b.Units.test_one)\n"
+               "It has a description. ... skipped 'no lintian'\ntest_two (b.Units.test_two) ... skipped 'why'\n")
+        with tempfile.NamedTemporaryFile("w", suffix=".log") as file:
+            file.write(log)
+            file.flush()
+            said = subprocess.run([CI.parent / "tests/house/list_skipped.sh", file.name], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(said, "== 3 tests were skipped\n   A.Draws: no GPU\n   test_one: no lintian\n   test_two: why\n")
 
 
 if __name__ == "__main__":

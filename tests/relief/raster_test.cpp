@@ -112,7 +112,7 @@ void expect_as_fine_as_its_cells(const Errors& sum, const BlockRelief& relief, d
                 sum.colour_rmse);
     // A tube's picture has an outline of 1 / r for each unit of its area. The count has a standard deviation.
     const double at_outline = sum.truth * rise_mm / radius_mm;
-    EXPECT_LT(sum.missing + sum.extra, at_outline + 3.0 * std::sqrt(at_outline));
+    EXPECT_LT(sum.missing + sum.extra, at_outline + 2.0 * std::sqrt(at_outline));
     // Along a ray: the rise's mean over a chord is 2/3 of it, and a tube has pi/2 times the area of its picture.
     EXPECT_LT(sum.mean_mm, std::numbers::pi / 3.0 * rise_mm);
     EXPECT_LT(sum.colour_rmse, 2.0) << "codes; wanted everywhere";
