@@ -20,6 +20,8 @@ constexpr int back_button = 0;
 constexpr int next_button = 1;
 constexpr Nanoseconds between_feeds = std::chrono::seconds(1);
 constexpr int max_buffers = 4; // of a display: each buffer gets the picture once
+/// While nothing changes. Each presentation copies the whole picture, and tells whether the display still works.
+constexpr Nanoseconds between_repeats = std::chrono::milliseconds(500);
 
 /// The house's words. Without them a calibration goes on in English.
 std::optional<pack::LanguageWords> load_default_words(const settings::Settings& settings) {
@@ -131,14 +133,19 @@ void TableDevices::tell(std::string_view state, std::string_view device, Sentenc
 }
 
 Result<MonotonicTime> TableDevices::present(MonotonicTime now) {
-    if (uploads_left_ > 0 || display_->buffer_age() == 0) {
-        uploads_left_ = std::max(uploads_left_ - 1, 0);
-        upload_.show(picture_, display_->framebuffer());
-    }
     if (voice_) {
         voice_->poll(now);
     }
+    const bool changed = uploads_left_ > 0 || display_->buffer_age() == 0;
+    if (!changed && presented_ && now - presented_->at < between_repeats) {
+        return presented_->lit;
+    }
+    if (changed) {
+        uploads_left_ = std::max(uploads_left_ - 1, 0);
+        upload_.show(picture_, display_->framebuffer());
+    }
     TRY(const MonotonicTime lit, display_->present(now));
+    presented_ = Presented{now, lit};
     if (!fed_) {
         manager_.ready();
     }

@@ -59,8 +59,8 @@ public:
     void say(const std::vector<std::string>& words, std::string_view key);
     /// Reports a device's state, if it differs from `told`.
     static void tell(std::string_view state, std::string_view device, Sentence& told);
-    /// Presents the picture and returns the time since which it is lit. Also runs the voice and the service
-    /// manager's watchdog.
+    /// Presents the picture if it is new or was last presented half a second ago; returns the time of the last presentation
+    /// by the display's clock. Also runs the voice and the service manager's watchdog.
     [[nodiscard]] Result<MonotonicTime> present(MonotonicTime now);
 
     [[nodiscard]] bool told_to_stop() const { return stop_.received(); }
@@ -86,6 +86,11 @@ private:
     std::optional<TableVoice> voice_;
     image::Image8 picture_;
     int uploads_left_ = 0;
+    struct Presented {
+        MonotonicTime at;
+        MonotonicTime lit;
+    };
+    std::optional<Presented> presented_;
     std::vector<tracker::PoseSample> samples_;
     std::vector<panel::PanelEvent> events_;
     bool has_seen_head_ = false;
