@@ -166,7 +166,6 @@ TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {
     const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
     const Occluder nothing;
     Random random(32);
-    int seen = 0;
     for (int k = 0; k < 2000; ++k) {
         const glm::dvec3 eye = some_eye(random);
         const glm::dvec3 point(between(random, -0.02, 0.02), between(random, -0.02, 0.02),
@@ -190,9 +189,7 @@ TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {
         EXPECT_TRUE(is_seen(hotspot, eye, prop, {1U << face}, nothing));
         EXPECT_FALSE(is_seen(hotspot, eye, prop, {~(1U << face)}, nothing));
         EXPECT_FALSE(is_seen({point, -hotspot.normal}, eye, prop, {all_faces}, nothing));
-        ++seen;
     }
-    EXPECT_EQ(seen, 2000);
 }
 
 struct Scene {

@@ -168,6 +168,7 @@ TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
 
 /// The artifact and the picture in its place light the same part of the table; both are fully white, or one is dark.
 TEST(ExhibitThatLoads, FlashesNoMoreThanThreeTimesASecondWhateverIsPressedAndWhateverComes) {
+    int most = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
         Exhibit exhibit = sample::exhibit(6, {"en", "de"});
@@ -199,7 +200,9 @@ TEST(ExhibitThatLoads, FlashesNoMoreThanThreeTimesASecondWhateverIsPressedAndWha
                 {now, std::min(1.0, artifact_light * shown.brightness + picture_light * picture)});
         }
         EXPECT_LE(max_flashes_per_second(samples), 3) << seed;
+        most = std::max(most, max_flashes_per_second(samples));
     }
+    EXPECT_GE(most, 1) << "nothing was seen of the presses";
 }
 
 } // namespace

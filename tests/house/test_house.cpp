@@ -35,6 +35,7 @@ std::vector<fs::path> files_ending(const std::vector<std::string>& endings) {
             }
         }
     }
+    EXPECT_FALSE(files.empty());
     return files;
 }
 

@@ -100,6 +100,7 @@ std::vector<Include> includes_below(const std::string& folder) {
             }
         }
     }
+    EXPECT_FALSE(includes.empty()) << folder;
     return includes;
 }
 

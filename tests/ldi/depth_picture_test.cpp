@@ -59,6 +59,7 @@ struct Hit {
     double way = std::numeric_limits<double>::infinity(); ///< in rays
     double margin = 0.0; ///< least share of a corner: how far from the triangle's border
     glm::dvec3 colour{0.0};
+    double slack = 0.0; ///< of 1 / way, because the corners are rounded to a share of a pixel
 };
 
 /// Möller and Trumbore for one triangle.
@@ -76,7 +77,8 @@ bool meets(const TriangleWorld& world, std::size_t triangle, const glm::dvec3& e
     hit = {way, std::min({u, v, 1.0 - u - v}),
            (1.0 - u - v) * glm::dvec3(world.colours[3 * triangle]) +
                u * glm::dvec3(world.colours[3 * triangle + 1]) +
-               v * glm::dvec3(world.colours[3 * triangle + 2])};
+               v * glm::dvec3(world.colours[3 * triangle + 2]),
+           0.0};
     return way > 0.0 && hit.margin > 0.0;
 }
 
@@ -96,6 +98,8 @@ Hit cast(const TriangleWorld& world, const PictureMap& map, double x, double y, 
         }
         if (met[0] && hits[0].way < nearest.way) {
             nearest = hits[0];
+            nearest.slack = std::fabs(1.0 / hits[1].way - 1.0 / hits[0].way) +
+                            std::fabs(1.0 / hits[3].way - 1.0 / hits[0].way);
         }
         if (met[0] || met[1] || met[2] || met[3] || met[4]) {
             around.push_back(hits);
@@ -138,6 +142,7 @@ TEST(DepthPicture, EqualsARayCastOfEveryTriangleInHitDepthAndColour) {
                 ASSERT_EQ(colour.a, nearness > 0.0F ? 255 : 0);
                 if (nearness > 0.0F) {
                     ++hits;
+                    EXPECT_NEAR(nearness, 1.0 / hit.way, hit.slack + 1e-6) << x << ", " << y;
                     EXPECT_NEAR(glm::length(glm::dvec3(colour) - hit.colour), 0.0, 0.9)
                         << x << ", " << y; // sqrt(3) / 2
                 } else {

@@ -88,6 +88,7 @@ TEST(PatchMaker, TurnsToAnotherPatchAtOnceAndKeepsNoHalfMadeOne) {
         maker.step();
     }
     EXPECT_TRUE(maker.patch(7));
+    EXPECT_EQ(maker.made_count(), 1U);
     maker.look_from({0.0, 0.0, -1.0}); // no patch: nothing changes
     EXPECT_TRUE(maker.step());
 }

@@ -106,7 +106,6 @@ TEST(GltfMovements, AnimationsBeyondTheLimitsOfAWorldAreTold) {
     EXPECT_TRUE(notes(slow, lost, "whole animations (turn)"));
     // Accessors without data may claim any number of keys; they are not read.
     std::string claimed = file_with(R"({"mesh":0})", animations(animation(0, "translation")));
-    const std::string first = R"("accessors":[)";
     const std::size_t end = claimed.find("],\"meshes\"");
     claimed.insert(end, R"(,{"type":"SCALAR","componentType":5126,"count":4294967296},)"
                         R"({"type":"VEC3","componentType":5126,"count":4294967296})");

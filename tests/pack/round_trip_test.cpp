@@ -4,6 +4,7 @@
 #include "tests/pack/samples.h"
 #include "tests/pack/zip_dates.h"
 
+#include <algorithm>
 #include <filesystem>
 
 using namespace frustumscreen;
@@ -193,12 +194,11 @@ TEST(RoundTrip, each_texel_of_a_wide_atlas_is_found_again) {
 TEST(RoundTrip, a_relief_level_stores_its_vertices_as_texels) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     const PackLevel level = samples::pack().levels[1];
-    for (const auto& [name, bytes] : entries.parts) {
-        if (name == "levels/1.bin") {
-            EXPECT_EQ(bytes.size(),
-                      24 + 52 * level.clusters.size() + 4 * level.indices.size() + 6 * level.vertices.size());
-        }
-    }
+    const auto part =
+        std::ranges::find_if(entries.parts, [](const auto& each) { return each.first == "levels/1.bin"; });
+    ASSERT_NE(part, entries.parts.end());
+    EXPECT_EQ(part->second.size(),
+              24 + 52 * level.clusters.size() + 4 * level.indices.size() + 6 * level.vertices.size());
 }
 
 TEST(RoundTrip, a_file_is_read_and_named_in_errors) {

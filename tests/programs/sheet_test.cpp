@@ -94,7 +94,12 @@ TEST_F(Sheet, AFolderWithoutPosesOrWithDamagedTimesIsOneLine) {
     ASSERT_FALSE(damaged);
     EXPECT_NE(damaged.error().message.find("frames.csv:2"), std::string::npos);
     std::filesystem::remove(folder / "poses.csv");
-    EXPECT_FALSE(read_frame_folder(folder, {}, "", {}));
+    const Result<FrameFolder> without_poses = read_frame_folder(folder, {}, "", {});
+    ASSERT_FALSE(without_poses);
+    EXPECT_NE(without_poses.error().message.find("poses.csv"), std::string::npos);
+    for (const Result<FrameFolder>* refused : {&damaged, &without_poses}) {
+        EXPECT_EQ(refused->error().message.find('\n'), std::string::npos) << refused->error().message;
+    }
 }
 
 TEST_F(Sheet, TheTableLeavesOutTheFirstFrameAndCountsWhatWasNotDrawn) {

@@ -88,6 +88,7 @@ TEST_F(StaffService, RefusesEveryOtherQuestionAndNamesTheRightOne) {
         ASSERT_FALSE(answer) << question;
         EXPECT_EQ(answer.error().id, "staff.exhibit_says") << answer.error().message;
         EXPECT_EQ(answer.error().message.find('\x1b'), std::string::npos) << "it goes to a terminal";
+        EXPECT_NE(answer.error().message.find("'screenshot'"), std::string::npos) << answer.error().message;
     }
 }
 

@@ -128,8 +128,10 @@ TEST_F(NarrationRun, ADamagedRecordingIsSaidOnceAndItsTextIsShown) {
     damaged.resize(60);
     put_pack(long_text, damaged);
     run();
-    EXPECT_NE(text("err.txt").find("the description in 'en' is silent: "), std::string::npos)
-        << text("err.txt");
+    const std::string errors = text("err.txt");
+    const std::string_view silent = "the description in 'en' is silent: ";
+    ASSERT_NE(errors.find(silent), std::string::npos) << errors;
+    EXPECT_EQ(errors.find(silent), errors.rfind(silent)) << errors;
     EXPECT_GT(light_in(4), 3 * light_in(2));
     const std::vector<std::int16_t> sound = heard();
     EXPECT_TRUE(std::all_of(sound.begin(), sound.end(), [](std::int16_t s) { return s == 0; }));

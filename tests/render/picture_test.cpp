@@ -5,6 +5,8 @@
 #include "tests/render/rig.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 namespace frustumscreen::synthetic {
 namespace {
@@ -42,10 +44,11 @@ TEST(Picture, HoldsForExtremeEyesAndProjectors) {
     oblique.table_from_projector.rotation =
         glm::angleAxis(lean, glm::dvec3(1, 0, 0)) * oblique.table_from_projector.rotation;
     oblique.table_from_projector.translation = {0.0, -0.9 * std::sin(lean), 0.05 + 0.9 * std::cos(lean)};
-    for (const TestTable& table : {overhead, far, close, shifted, oblique}) {
+    const std::map<std::string, TestTable> tables{
+        {"overhead", overhead}, {"far", far}, {"close", close}, {"shifted", shifted}, {"oblique", oblique}};
+    for (const auto& [which, table] : tables) {
         scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
         const Comparison c = compare(table, cast, rig.places());
-        const std::string which = ::testing::PrintToString(&table - &overhead);
         EXPECT_GT(c.both, 300U) << which;
         EXPECT_LT(c.worst_mm, 0.02) << which;
         EXPECT_EQ(c.unexcused, 0U) << which << ": of " << c.mismatched << " mismatched";

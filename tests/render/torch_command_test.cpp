@@ -77,11 +77,11 @@ TEST_F(TorchCommand, ATorchAnywhereIsDrawnOrDark) {
         bool dark;
     };
     for (const Place& place :
-         {Place{"1000,3,0,0,0.06,1,0,0,0,1\n", false},                    // in the prop, straight up
-          Place{"1000,3,0,0,0,1,0,0,0,1\n", false},                       // in the prop's bottom
-          Place{"1000,3,0,-0.55,0.5,0.4,-0.9,0,0,1\n", false},            // at the eye
-          Place{"1000,3,0,0,0.9,0,1,0,0,1\n", false},                     // at the projector
-          Place{"1000,3,0,0,-0.5,1,0,0,0,1\n", false},                    // under the table
+         {Place{"1000,3,0,0,0.06,1,0,0,0,1\n", true},          // in the prop, straight up, past the rings
+          Place{"1000,3,0,0,0,1,0,0,0,1\n", false},            // in the prop's bottom
+          Place{"1000,3,0,-0.55,0.5,0.4,-0.9,0,0,1\n", false}, // at the eye
+          Place{"1000,3,0,0,0.9,0,1,0,0,1\n", false},          // at the projector
+          Place{"1000,3,0,0,-0.5,1,0,0,0,1\n", false},         // under the table
           Place{"1000,3,0,-0.3,0.2,0.5e-5,-0.8660254e-5,0,0,1\n", false}, // a short quaternion
           Place{"1000,3,0,0,1000,0,1,0,0,1\n", true},                     // a thousand metres away
           Place{"1000,3,700,-700,5,0,1,0,0,1\n", true},                   // beside everything
@@ -91,9 +91,7 @@ TEST_F(TorchCommand, ATorchAnywhereIsDrawnOrDark) {
         put("poses.csv", std::string(columns) + prop + place.row);
         ASSERT_EQ(run("--torch white"), 0) << place.row << text("err.txt");
         ASSERT_FALSE(shown().empty()) << place.row;
-        if (place.dark) {
-            EXPECT_EQ(shown(), shown("dark")) << place.row;
-        }
+        EXPECT_EQ(shown() == shown("dark"), place.dark) << place.row;
     }
 }
 

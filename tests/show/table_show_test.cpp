@@ -282,13 +282,13 @@ TEST_F(OnTheTable, APackWithoutAPictureHasASquare) {
     make(3, "", 2);
     wait(milliseconds(1500));
     const image::Image8 image = picture();
-    for (const exhibit::PlacedPicture& placed : shown.table->pictures()) {
-        if (placed.artifact == std::size_t{2}) {
-            EXPECT_GT(seen_at(image, placed.place, 0.5, 0.022).g, 60); // its outline
-            const glm::u8vec4 corner = seen_at(image, placed.place, 0.2, 0.2);
-            EXPECT_EQ(corner.r + corner.g + corner.b, 0);
-        }
-    }
+    const std::span<const exhibit::PlacedPicture> pictures = shown.table->pictures();
+    const auto placed = std::ranges::find_if(
+        pictures, [](const exhibit::PlacedPicture& each) { return each.artifact == std::size_t{2}; });
+    ASSERT_NE(placed, pictures.end());
+    EXPECT_GT(seen_at(image, placed->place, 0.5, 0.022).g, 60); // its outline
+    const glm::u8vec4 corner = seen_at(image, placed->place, 0.2, 0.2);
+    EXPECT_EQ(corner.r + corner.g + corner.b, 0);
     EXPECT_EQ(show->use().planned_gpu_bytes, show->use().gpu_bytes);
 }
 

@@ -62,7 +62,7 @@ TEST_F(WordsCommand, a_museums_words_recordings_and_voice_are_taken) {
     std::filesystem::create_directories(folder / "mine" / "nl");
     std::ofstream(folder / "mine" / "nl.toml")
         << "name = \"Nederlands\"\nattract_line = \"Verschuif het blok.\"\n";
-    ASSERT_TRUE(write_file(folder / "mine" / "nl" / "attract_line.wav", wav16(sine(0.2, 0.4))));
+    ASSERT_TRUE(write_file(folder / "mine" / "nl" / "attract_line.wav", wav16(sine(0.2, 1.2))));
     ASSERT_TRUE(write_file(folder / "tone.wav", wav16(sine(0.2, 0.4))));
     ASSERT_EQ(run("frustumscreen-bake --words mine --languages de,nl -o out.fswords --speech 'cat tone.wav'"),
               0)
@@ -70,6 +70,11 @@ TEST_F(WordsCommand, a_museums_words_recordings_and_voice_are_taken) {
     const Result<pack::LanguageWords> dutch = baked("nl");
     ASSERT_TRUE(dutch) << dutch.error().message;
     EXPECT_EQ(dutch->sounds.size(), dutch->words.size());
+    const std::size_t recorded =
+        dutch->sounds.at("attract_line").size(); // three times as long as the voice's tone
+    EXPECT_EQ(std::ranges::count_if(dutch->sounds,
+                                    [&](const auto& sound) { return 2 * sound.second.size() < recorded; }),
+              std::ssize(dutch->sounds) - 1);
     EXPECT_NE(text("err.txt").find("the language 'nl' has no text for"), std::string::npos);
 }
 

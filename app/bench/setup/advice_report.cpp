@@ -71,9 +71,9 @@ std::string setup_table(const SetUpChoice& now, const std::vector<SetUpChoice>& 
     const SetUpChoice* const best = best_of(choices);
     for (const SetUpChoice& choice : choices) {
         const std::string name = fmt::format("{}{}", name_of(choice.mount),
-                                             &choice == best ? " best"
-                                             : choice.works  ? ""
-                                                             : " no");
+                                             !choice.works     ? " no"
+                                             : &choice == best ? " best"
+                                                               : "");
         table += line_of(name, choice);
     }
     table += fmt::format(
