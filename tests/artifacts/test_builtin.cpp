@@ -72,7 +72,7 @@ Sight look(const bake::SourceMesh& mesh, const glm::dvec3& origin, const glm::dv
 
 class EveryBuiltin : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(EveryBuiltin, HasTheNumberOfTrianglesAskedFor) {
+TEST_P(EveryBuiltin, HasTheRequestedNumberOfTriangles) {
     for (const std::int64_t triangles : {1'000, 8'000, 400'000}) {
         const bake::SourceMesh& mesh = built(GetParam(), triangles);
         EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), static_cast<double>(triangles),
@@ -80,7 +80,7 @@ TEST_P(EveryBuiltin, HasTheNumberOfTrianglesAskedFor) {
     }
 }
 
-TEST_P(EveryBuiltin, IsTheSameEveryTime) {
+TEST_P(EveryBuiltin, IsDeterministic) {
     const bake::SourceMesh& a = built(GetParam(), 8'000);
     const bake::SourceMesh b = make_builtin(GetParam(), 8'000).value();
     EXPECT_EQ(a.positions, b.positions);
@@ -89,7 +89,7 @@ TEST_P(EveryBuiltin, IsTheSameEveryTime) {
     EXPECT_EQ(a.textures[0].image->texels, b.textures[0].image->texels);
 }
 
-TEST_P(EveryBuiltin, IsASoundMesh) {
+TEST_P(EveryBuiltin, IsAValidMesh) {
     const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
     ASSERT_EQ(mesh.triangle_materials.size(), mesh.triangles.size());
@@ -112,7 +112,7 @@ TEST_P(EveryBuiltin, IsASoundMesh) {
     }
 }
 
-TEST_P(EveryBuiltin, HasNeighboursThatAgreeWhichSideIsOut) {
+TEST_P(EveryBuiltin, HasConsistentWinding) {
     const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     const std::vector<std::uint32_t> places = places_of(mesh);
     std::set<Edge> edges;
@@ -127,7 +127,7 @@ TEST_P(EveryBuiltin, HasNeighboursThatAgreeWhichSideIsOut) {
     }
 }
 
-TEST_P(EveryBuiltin, ShowsItsFrontFromAllAround) {
+TEST_P(EveryBuiltin, ShowsFrontFacesFromAllSides) {
     const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     int seen = 0;
     for (int azimuth = 0; azimuth < 360; azimuth += 20) {
@@ -169,7 +169,7 @@ TEST_P(EveryBuiltin, HasAllItsTextsInFiveLanguages) {
     }
 }
 
-TEST_P(EveryBuiltin, HasAPictureForEachLayerOfItsTorchAndStatesAndTitlesInFiveLanguages) {
+TEST_P(EveryBuiltin, HasAPictureForEachLayerAndTitlesInFiveLanguages) {
     const std::vector<BuiltinLayer> layers = builtin_layers(GetParam());
     std::set<std::string> named;
     for (const folder::ArtifactTorch& content : folder_of(GetParam()).torches) {
@@ -196,7 +196,7 @@ TEST_P(EveryBuiltin, HasAPictureForEachLayerOfItsTorchAndStatesAndTitlesInFiveLa
     }
 }
 
-TEST_P(EveryBuiltin, HasTwoHotspotsOnItsSurfaceThatLookOutward) {
+TEST_P(EveryBuiltin, HasTwoOutwardHotspotsOnItsSurface) {
     const bake::SourceMesh& mesh = built(GetParam(), 8'000);
     const Result<bake::BoxFrame> frame = bake::make_box_frame(mesh, {"y", 0.0, 0.0});
     ASSERT_TRUE(frame);
@@ -223,7 +223,7 @@ INSTANTIATE_TEST_SUITE_P(Artifacts, EveryBuiltin, testing::ValuesIn(builtin_name
     return test.param == "amphora" ? "Amphora" : "NautilusCup";
 });
 
-TEST(Amphora, IsClosedButForItsTextureSeams) {
+TEST(Amphora, IsClosedExceptAtItsHandles) {
     const bake::SourceMesh& mesh = built("amphora", 8'000);
     const std::vector<std::uint32_t> places = places_of(mesh);
     std::map<Edge, int> balance;
@@ -246,7 +246,7 @@ TEST(Amphora, IsClosedButForItsTextureSeams) {
     }
 }
 
-TEST(Amphora, IsHollowAndItsHandlesLetTheLightThrough) {
+TEST(Amphora, IsHollowWithGapsBehindItsHandles) {
     const bake::SourceMesh& mesh = built("amphora", 8'000);
     const Sight into_the_mouth = look(mesh, {0.5, 600.0, 0.5}, {0.0, -1.0, 0.0});
     EXPECT_GT(into_the_mouth.t, 400.0) << "deeper than the neck";
@@ -257,7 +257,7 @@ TEST(Amphora, IsHollowAndItsHandlesLetTheLightThrough) {
     EXPECT_LT(look(mesh, {84.0, 272.0, 500.0}, {0.0, 0.0, -1.0}).t, 1e29) << "on the handle";
 }
 
-TEST(Amphora, CarriesReliefThatMoreTrianglesShow) {
+TEST(Amphora, HasReliefInTheFrieze) {
     // Radii around one height in the frieze: a plain turned body would have one.
     const bake::SourceMesh& mesh = built("amphora", 400'000);
     double least = 1e9;
@@ -284,7 +284,7 @@ TEST(NautilusCup, IsThinAndConcave) {
     EXPECT_LT(inner_floor - outer_floor, 4.0);
 }
 
-TEST(Builtin, UnknownNamesAndCountsAreRefusedInOneLine) {
+TEST(Builtin, RejectsUnknownNamesAndInvalidCounts) {
     for (const auto& mesh :
          {make_builtin("vase", 5'000), make_builtin("amphora", 999), make_builtin("amphora", 50'000'001)}) {
         ASSERT_FALSE(mesh.has_value());
@@ -294,7 +294,7 @@ TEST(Builtin, UnknownNamesAndCountsAreRefusedInOneLine) {
     EXPECT_TRUE(builtin_folder_text("vase").empty());
 }
 
-TEST(Builtin, NoLastLookFindsAMistake) {
+TEST(Builtin, LastLookReportsNothing) {
     std::size_t looks = 0;
     for (const std::string_view name : builtin_names()) {
         for (const std::int64_t triangles : {2'000, 100'000}) {

@@ -58,7 +58,7 @@ std::map<Edge, int> edges_of(const bake::SourceMesh& mesh) {
     return balance;
 }
 
-TEST_P(EveryHallObject, IsASoundMeshOfTheNumberOfTrianglesAskedFor) {
+TEST_P(EveryHallObject, IsAValidMeshOfTheRequestedTriangles) {
     for (const std::int64_t triangles : {3'000, 12'000}) {
         const bake::SourceMesh& mesh = made(triangles);
         EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), static_cast<double>(triangles),
@@ -75,7 +75,7 @@ TEST_P(EveryHallObject, IsASoundMeshOfTheNumberOfTrianglesAskedFor) {
     }
 }
 
-TEST_P(EveryHallObject, IsClosedOrSaysThatItIsNot) {
+TEST_P(EveryHallObject, IsClosedAsDeclared) {
     const std::map<Edge, int> balance = edges_of(made(3'000));
     const bool closed =
         std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
@@ -85,7 +85,7 @@ TEST_P(EveryHallObject, IsClosedOrSaysThatItIsNot) {
     }
 }
 
-TEST_P(EveryHallObject, HasItsOutsideOutside) {
+TEST_P(EveryHallObject, FacesOutward) {
     const bake::SourceMesh& mesh = made(3'000);
     if (GetParam().kind == HallKind::Building && GetParam().surface == HallSurface::Open) {
         // A sheet looks up, down, or to the front.
@@ -108,7 +108,7 @@ TEST_P(EveryHallObject, HasItsOutsideOutside) {
     EXPECT_GT(volume, 1e4) << "cubic millimetres";
 }
 
-TEST_P(EveryHallObject, BakesWithoutALossOrAGuess) {
+TEST_P(EveryHallObject, BakesWithoutScraps) {
     const bake::SourceMesh& mesh = made(3'000);
     bake::BakeOptions options;
     options.size = 32;
@@ -134,7 +134,7 @@ std::string read(const std::string& file) {
     return text_of(source_dir() + "/" + file);
 }
 
-TEST(HallRoom, NamesOnlyPacksThatRunBakesAndAllOfThem) {
+TEST(HallRoom, NamesExactlyThePacksThatRunBakes) {
     const Result<room::Room> hall = room::read_room(source_dir() + "/config/hall/room.toml");
     ASSERT_TRUE(hall) << hall.error().message;
     std::set<std::string> baked;
@@ -154,7 +154,7 @@ TEST(HallRoom, NamesOnlyPacksThatRunBakesAndAllOfThem) {
     EXPECT_EQ(named, baked);
 }
 
-TEST(HallRoom, IsSymmetricWithTwoThatTurnBeforeTheScreen) {
+TEST(HallRoom, IsSymmetricWithTwoMovingObjectsBeforeTheScreen) {
     const Result<settings::CheckedSettings> settings =
         settings::load_settings(source_dir() + "/config/hall.toml");
     ASSERT_TRUE(settings) << settings.error().message;
@@ -180,7 +180,7 @@ TEST(HallRoom, IsSymmetricWithTwoThatTurnBeforeTheScreen) {
 }
 
 /// The keys that a reader asks for, from its source, are those of the page's table, whose defaults change nothing.
-TEST(HallRoom, TheDesignersPageHasEachKeyOfTheFileWithItsDefault) {
+TEST(HallRoom, PageListsEachKeyWithItsDefault) {
     std::set<std::string> read_keys;
     const std::string source = read("app/room/room_file.cpp");
     static const std::regex asked(R"re(keys\.(?:text|path|vector|number|flag|integer)\("(\w+)")re");

@@ -87,7 +87,7 @@ TEST(BestTurn, TheBroadSideLooksAtTheVisitorAndAChestStandsStraight) {
     EXPECT_EQ(best_turn_deg(box({0.95, 1.0, 12.0}), "z", 0.0, prop), 0.0) << "not clearly broader";
 }
 
-TEST(BestTurn, ATurnedFileComesToTheSameStanding) {
+TEST(BestTurn, StandingIsIndependentOfTheFilesTurn) {
     for (const double turned : {10.0, 30.0, -20.0}) {
         const SourceMesh plate = box({4.0, 0.01, 1.0}, turned);
         const double turn = best_turn_deg(plate, "z", 0.0, geometry::make_frustum({}));

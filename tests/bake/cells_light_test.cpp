@@ -107,7 +107,7 @@ struct Baked {
     }
 };
 
-TEST(CellsLight, AtRestIsThatOfTheWholeWhereverSomebodySeesIt) {
+TEST(CellsLight, MatchesTheWholeAtRestOnVisibleSurfaces) {
     const Baked baked(closed_chest());
     ASSERT_EQ(baked.parts.size(), 3U);
     double squares = 0.0;
@@ -149,7 +149,7 @@ TEST(CellsLight, AtRestIsThatOfTheWholeWhereverSomebodySeesIt) {
 }
 
 /// Colours along the chest's floor and on the rim, from above, in the pack of the chest alone.
-TEST(CellsLight, WhatTheWholeHidesAtRestHasTheLightOfItsPartAlone) {
+TEST(CellsLight, HiddenSurfacesAreLitLikeThePartAlone) {
     const SourceMesh mesh = closed_chest();
     const Baked baked(mesh);
     SourceMesh open = mesh; // the chest without lid and ball, in a box of its own

@@ -19,7 +19,7 @@ TriangleMesh sphere_mesh() {
 
 } // namespace
 
-TEST(Charts, EveryTriangleIsKeptAndEveryMapIsFreeOfFoldsAndNearlyTrueToScale) {
+TEST(Charts, KeepEveryTriangleWithoutFoldsAndNearlyToScale) {
     const TriangleMesh mesh = sphere_mesh();
     constexpr float texel = 1.0F / 256.0F;
     const ChartedMesh charted = chart(mesh, texel);
@@ -46,7 +46,7 @@ TEST(Charts, EveryTriangleIsKeptAndEveryMapIsFreeOfFoldsAndNearlyTrueToScale) {
 
 /// Six charts, like the sides of a cube, are the fewest for a sphere at these slopes; vertices on their borders are
 /// split.
-TEST(Charts, FewPlacesAreSplit) {
+TEST(Charts, FewVerticesAreSplit) {
     const TriangleMesh mesh = sphere_mesh();
     const ChartedMesh charted = chart(mesh, 1.0F / 256.0F);
     const double split =
@@ -80,7 +80,7 @@ TEST(Charts, NoTexelIsInsideTwoTriangles) {
 }
 
 /// A triangle of a coarser mesh that rounding presses flat has no chart; one of the finer mesh has it for its nearest neighbour.
-TEST(Charts, AMeshIsChartedBesideATriangleWithoutArea) {
+TEST(Charts, ATriangleWithoutAreaIsOmitted) {
     const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3}};
     TriangleMesh coarse = square;
     coarse.positions.insert(coarse.positions.end(), {{0, 0, 1}, {0.05F, 0, 1}, {0.1F, 0, 1}});

@@ -107,26 +107,26 @@ double jump_at_edges(const LitPrism& prism, int walls) {
     return largest;
 }
 
-TEST(FileNormals, AFlatWallHasOneValueWhereTheFileSaysThatItIsFlat) {
+TEST(FileNormals, FlatNormalsGiveOneValuePerWall) {
     constexpr int walls = 8; // 45 degrees, which count as smooth without normals
     EXPECT_GT(spread_in_walls(LitPrism(walls, Normals::None), walls), 8.0);
     EXPECT_LE(spread_in_walls(LitPrism(walls, Normals::Flat), walls), 2.0);
 }
 
-TEST(FileNormals, AnEdgeIsSoftWhereTheFileSaysThatItIsSmooth) {
+TEST(FileNormals, SmoothNormalsSoftenAnEdge) {
     constexpr int walls = 6; // 60 degrees, which count as an edge without normals
     const double hard = jump_at_edges(LitPrism(walls, Normals::None), walls);
     EXPECT_GT(hard, 20.0);
     EXPECT_LT(jump_at_edges(LitPrism(walls, Normals::Smooth), walls), 0.4 * hard);
 }
 
-TEST(FileNormals, ThatAreAveragedOverASharpEdgeDoNotCount) {
+TEST(FileNormals, NormalsAveragedOverASharpEdgeAreIgnored) {
     constexpr int walls = 4; // smooth normals lean by 45 degrees
     EXPECT_EQ(LitPrism(walls, Normals::Smooth).picture().texels,
               LitPrism(walls, Normals::None).picture().texels);
 }
 
-TEST(FileNormals, TurnedInwardsGiveTheSameLight) {
+TEST(FileNormals, InwardNormalsGiveTheSameLight) {
     SourceMesh mesh = prism(6, Normals::Smooth);
     SourceMesh inward = mesh;
     for (glm::vec3& normal : inward.normals) {

@@ -32,7 +32,7 @@ SourceMesh sphere(bool inside_out) {
     return mesh;
 }
 
-TEST(Hotspots, lie_on_the_surface_and_look_outward_whatever_the_winding) {
+TEST(Hotspots, lie_on_the_surface_and_look_outward_for_any_winding) {
     for (const bool inside_out : {false, true}) {
         const InBox ball(sphere(inside_out));
         for (const glm::dvec3 direction :
@@ -64,7 +64,7 @@ TEST(Hotspots, too_far_from_the_surface_are_refused_with_the_nearest_point) {
     EXPECT_FALSE(ball.put({1e9, 1e9, -1e9}));
 }
 
-TEST(Hotspots, where_nobody_sees_the_surface_are_refused) {
+TEST(Hotspots, on_hidden_surfaces_are_refused) {
     SourceMesh mesh = test::empty_mesh();
     test::add_box(mesh, {0, 0, 0}, {10, 10, 10});
     test::add_box(mesh, {4, 4, 4}, {6, 6, 6}); // inside the first box
@@ -78,7 +78,7 @@ TEST(Hotspots, where_nobody_sees_the_surface_are_refused) {
     EXPECT_GT(open->normal.z, 0.999);
 }
 
-TEST(Hotspots, a_noisy_surface_has_a_calm_normal) {
+TEST(Hotspots, normal_is_smooth_on_a_noisy_surface) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0}, 10.0, 160);
     std::mt19937 random(7);

@@ -71,7 +71,7 @@ TEST(LastLook, PartsOfTheArtifactAreNoScraps) {
     EXPECT_EQ(find_scraps(soup).triangles, 0U);
 }
 
-TEST(LastLook, AnArtifactThatIsBlackIsTold) {
+TEST(LastLook, ReportsABlackArtifact) {
     SourceMesh mesh;
     add_square(mesh, 4, {0, 0, 0});
     EXPECT_FALSE(guesses(mesh, "black"));
@@ -84,7 +84,7 @@ TEST(LastLook, AnArtifactThatIsBlackIsTold) {
     EXPECT_TRUE(guesses(mesh, "black"));
 }
 
-TEST(LastLook, CoordinatesThatAreTooLargeForTheirSizeAreTold) {
+TEST(LastLook, ReportsCoordinatesTooLargeForTheirSize) {
     SourceMesh far;
     add_square(far, 4, {4194304.0, 0, 0}, 2.0); // the step of 32 bits is 0.5 there
     EXPECT_TRUE(guesses(far, "grid"));
@@ -107,7 +107,7 @@ void turn_over(SourceMesh& mesh, std::size_t triangle) {
     std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
 }
 
-TEST(LastLook, PartsThatAreTurnedInsideOutAreMeasured) {
+TEST(LastLook, MeasuresTheInsideOutShare) {
     SourceMesh half = sphere();
     EXPECT_EQ(inside_out_share(half), 0.0);
     for (std::size_t t = 0; t < half.triangles.size(); ++t) {
@@ -134,7 +134,7 @@ TEST(LastLook, PartsThatAreTurnedInsideOutAreMeasured) {
     EXPECT_NEAR(inside_out_share(seams), 0.5, 1e-6);
 }
 
-TEST(LastLook, AllOfAPartOrBothSidesOfASheetAreNotInsideOut) {
+TEST(LastLook, WholePartsAndTwoSidedSheetsAreNotInsideOut) {
     SourceMesh all = sphere();
     for (std::size_t t = 0; t < all.triangles.size(); ++t) {
         turn_over(all, t);
@@ -206,7 +206,7 @@ TEST(LastLook, ClosedPartsAreTurnedOutward) {
     EXPECT_EQ(turn_outward(mixed), 0U);
 }
 
-TEST(LastLook, WhatHasNoOutsideIsNotTurned) {
+TEST(LastLook, OpenAndHollowSurfacesAreNotTurned) {
     SourceMesh open;
     add_square(open, 10, {0, 0, 0});
     turn_over(open, 7);
@@ -244,7 +244,7 @@ SourceMesh painted(const image::Image8& picture) {
     return mesh;
 }
 
-TEST(LastLook, ColoursThatAreAllOneAreTold) {
+TEST(LastLook, ReportsASingleColour) {
     image::Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
     EXPECT_TRUE(guesses(painted(picture),
                         "all of its colours are one, red 200, green 120, blue 60, though it has a picture"));
@@ -267,7 +267,7 @@ TEST(LastLook, ColoursThatAreAllOneAreTold) {
     EXPECT_FALSE(guesses(vertices, "one"));
 }
 
-TEST(LastLook, LightThatFallsOnLightIsTold) {
+TEST(LastLook, ReportsLightOnEmissiveMaterials) {
     image::Image8 picture(4, 4, glm::u8vec4(200, 120, 60, 255));
     picture.at(0, 0) = glm::u8vec4(9, 9, 9, 255);
     SourceMesh mesh = painted(picture);
@@ -281,7 +281,7 @@ TEST(LastLook, LightThatFallsOnLightIsTold) {
     EXPECT_FALSE(guesses(mesh, "--unlit", Lighting::None));
 }
 
-TEST(LastLook, CoordinatesWithTooFewDecimalsAreTold) {
+TEST(LastLook, ReportsRoundedCoordinates) {
     const auto rounded = [](double step, double size = 1.0) {
         SourceMesh mesh = sphere();
         for (glm::dvec3& position : mesh.positions) {

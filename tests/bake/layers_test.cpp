@@ -184,7 +184,7 @@ TEST(Layers, show_their_own_colour_on_every_level_and_relief) {
     }
 }
 
-TEST(Layers, are_lit_as_the_artifact_unless_they_are_not_to_be) {
+TEST(Layers, are_lit_like_the_artifact_only_if_marked_lit) {
     SourceMesh mesh = sphere();
     mesh.layers = {layer_of(coloured, "lit", true), layer_of(coloured, "plain", false)};
     BakeOptions options = quick();

@@ -34,7 +34,7 @@ pack::LevelOutline level_of(std::uint64_t triangles, float mean_box, float p95_b
 
 } // namespace
 
-TEST(Levels, TheFrontGoesFromTheCheapestToTheNearest) {
+TEST(Levels, FrontRunsFromTheCheapestToTheMostExact) {
     const std::vector<pack::LevelOutline> levels{
         level_of(40'000, 1e-4F, 3e-4F), level_of(10'000, 4e-4F, 9e-4F),
         level_of(20'000, 5e-4F, 9e-4F), // more costly, and not more exact
@@ -44,7 +44,7 @@ TEST(Levels, TheFrontGoesFromTheCheapestToTheNearest) {
     EXPECT_EQ(measured_front(levels), (std::vector<std::size_t>{4, 1, 0}));
 }
 
-TEST(Levels, OfThoseWithFewTrianglesOnlyTheNearestIsOnTheFront) {
+TEST(Levels, OnlyTheMostExactSmallLevelIsOnTheFront) {
     const std::vector<pack::LevelOutline> levels{
         level_of(1'000, 5e-4F, 9e-4F),
         level_of(10, 2e-3F, 5e-3F), // as costly for a frame as the first
@@ -141,7 +141,7 @@ TEST(Levels, ACubesPackHasTheUndersideAndAFrustumsHasNot) {
     EXPECT_LT(looking_down(baked_frustum()), 0.2 * bottom); // only a rim of it
 }
 
-TEST(Levels, TheFrontFallsInErrorAsItGrowsInCost) {
+TEST(Levels, ErrorFallsAsCostGrowsAlongTheFront) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0.5}, 0.5, 64);
     const Result<pack::Pack> pack = bake(mesh, quick());
@@ -169,7 +169,7 @@ TEST(Levels, TheSameObjectAtAnyScaleAndPlaceGivesTheSameLevels) {
     }
 }
 
-TEST(Levels, OneTriangleRepeatedTrianglesAndSliversMakeASoundPack) {
+TEST(Levels, RepeatedAndDegenerateTrianglesMakeAValidPack) {
     SourceMesh mesh = test::empty_mesh();
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.5, 1e-9, 0.5}};
     test::add_triangle(mesh, 0, 1, 2);
@@ -196,7 +196,7 @@ TEST(Levels, ATextureKeepsItsColours) {
     EXPECT_LT(pack->levels[pack->default_level].error.colour_rmse, 2.0F);
 }
 
-TEST(Levels, PicturesOfAScanHaveRoomForWhatAPackShows) {
+TEST(Levels, UsefulPictureTexelsFollowTheBakeSizeWithinLimits) {
     constexpr std::int64_t a_picture_of_8k = std::int64_t{8192} * 8192;
     EXPECT_EQ(useful_picture_texels(512), a_picture_of_8k);
     EXPECT_EQ(useful_picture_texels(16), std::int64_t{4096} * 4096);

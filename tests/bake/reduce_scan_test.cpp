@@ -104,7 +104,7 @@ TEST(ReduceScan, KeepsAClosedSurfaceClosedAndOutward) {
     EXPECT_NEAR(volume, 4.0 / 3.0 * std::numbers::pi * 8.0, 0.1);
 }
 
-TEST(ReduceScan, TellsTheDistanceOfBothSurfaces) {
+TEST(ReduceScan, ReportsTheDistanceOfBothSurfaces) {
     SourceMesh mesh = sphere(150);
     reduce_scan(mesh, small);
     std::vector<double> from_sphere;
@@ -205,7 +205,7 @@ TEST(ReduceScan, NeverMixesChartsOfTextureCoordinates) {
     }
 }
 
-TEST(ReduceScan, MeansColoursAndNormalsOfACell) {
+TEST(ReduceScan, AveragesColoursAndNormalsOfACell) {
     SourceMesh mesh = sheet(100, [](double, double) { return 0.0; });
     for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
         const float shade = k % 2 == 0 ? 0.2F : 0.6F;
@@ -239,7 +239,7 @@ TEST(ReduceScan, TrianglesThatShareNoVertexAreReducedToo) {
     EXPECT_NEAR(static_cast<double>(mesh.reduced_from->points), 149.0 * 300.0 + 2.0, 2.0);
 }
 
-TEST(ReduceScan, AScanWithoutAreaStaysForTheBakeToRefuse) {
+TEST(ReduceScan, LeavesAScanWithoutArea) {
     SourceMesh mesh = empty_mesh();
     mesh.positions = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
     for (int k = 0; k < 6'000; ++k) {

@@ -32,7 +32,7 @@ pack::Pack sphere_pack(int size, bool far) {
     return bake(mesh, options).value();
 }
 
-TEST(Reliefs, AreOf96TexelsAndTwiceAsManyUpToTheBakesSize) {
+TEST(Reliefs, SizesDoubleFrom96TexelsUpToTheBakeSize) {
     EXPECT_EQ(relief_texels(512), (std::vector<int>{96, 192, 384}));
     EXPECT_EQ(relief_texels(1024), (std::vector<int>{96, 192, 384, 768}));
     EXPECT_EQ(relief_texels(96), (std::vector<int>{96}));
@@ -41,7 +41,7 @@ TEST(Reliefs, AreOf96TexelsAndTwiceAsManyUpToTheBakesSize) {
     EXPECT_EQ(relief_texels(16, true), (std::vector<int>{16}));
 }
 
-TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
+TEST(Reliefs, ErrorsOnASphereAreOfTexelSize) {
     const pack::Pack pack = sphere_pack(192, true);
     const std::vector<pack::ReliefOutline> reliefs = pack::reliefs_of(pack).value();
     ASSERT_EQ(reliefs.size(), 4U);
@@ -67,7 +67,7 @@ TEST(Reliefs, OfASphereLieOnItAndSayByHowMuchTheyMissIt) {
 
 /// Triangles without shared vertices that overlap their neighbours cannot be simplified, so a slow machine draws the
 /// reliefs.
-TEST(Reliefs, OfATriangleSoupAreSmallWhereItsLevelsAreNot) {
+TEST(Reliefs, AreSmallerThanTheLevelsOfATriangleSoup) {
     SourceMesh sphere = test::empty_mesh();
     test::add_sphere(sphere, {0, 0, 0.5}, 0.5, 86);
     SourceMesh soup = test::empty_mesh();
@@ -100,7 +100,7 @@ TEST(Reliefs, OfATriangleSoupAreSmallWhereItsLevelsAreNot) {
 
 /// A sheet of no thickness with both sides kept: both sides' cells are at one place, and each is visible from one side.
 /// A ray that passes the back of one hits the front of the other.
-TEST(Reliefs, OfASheetASideIsMetFromEitherSide) {
+TEST(Reliefs, RaysHitASheetFromEitherSide) {
     SourceMesh sheet = test::empty_mesh();
     sheet.positions = {{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}, {0.5, 0.0, 1.0}, {-0.5, 0.0, 1.0}};
     test::add_triangle(sheet, 0, 1, 2);

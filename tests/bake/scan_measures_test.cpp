@@ -38,7 +38,7 @@ TEST(ScanMeasures, RefuseWhatABakeRefuses) {
     }
 }
 
-TEST(ScanMeasures, TheUnitMakesAMuseumObjectOfIt) {
+TEST(ScanMeasures, GuessTheUnitFromFormatAndSize) {
     EXPECT_EQ(guessed_unit("GLB", 0.3), "m");
     EXPECT_EQ(guessed_unit("glTF", 15.0), "m") << "a ship";
     EXPECT_EQ(guessed_unit("GLB", 330.0), "mm") << "glTF means metres, and no object has 330";
@@ -50,7 +50,7 @@ TEST(ScanMeasures, TheUnitMakesAMuseumObjectOfIt) {
     EXPECT_EQ(guessed_unit("OBJ", 1e-5), "");
 }
 
-TEST(ScanMeasures, TheEstimateIsOfTheBakesOrder) {
+TEST(ScanMeasures, EstimatesAreWithinAFactorOfTheBake) {
     SourceMesh mesh = test::empty_mesh();
     test::add_sphere(mesh, {0, 0, 0}, 1.0, 48);
     std::mt19937 random(7);

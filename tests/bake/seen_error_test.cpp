@@ -78,7 +78,7 @@ double exact_mean(const std::vector<Slab>& source, const std::vector<Slab>& leve
 // A plate before a wall. Both are smaller in the level by a fortieth of the distance between two of the bake's rays, so
 // that only a handful of an eye's rays hit the wall beside the plate. The error for each eye is still estimated, as
 // exactly as a grid of rays resolves oblique edges.
-TEST(SeenError, WhatEdgesHideIsNotLeftToChance) {
+TEST(SeenError, MatchesTheExactMeanBehindOccludingEdges) {
     constexpr double less = 3e-4;
     const Slab wall{{-0.5, 0.2, 0.0}, {0.5, 0.25, 1.0}};
     const Slab plate{{-0.3, -0.25, 0.1}, {0.3, -0.2, 0.7}};
@@ -107,7 +107,7 @@ TEST(SeenError, WhatEdgesHideIsNotLeftToChance) {
 
 // A sphere that is smaller by d deviates by d along the normal, and by d / cos along a ray. The mean over a disc of
 // rays is 2 d, except for the rim, where rays miss the smaller sphere.
-TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
+TEST(SeenError, IsTwiceTheDistanceOfASmallerSphere) {
     constexpr double smaller = 2e-3;
     const SourceMesh source_mesh = sphere(192);
     const SourceScene source(source_mesh, source_mesh.positions);
@@ -145,7 +145,7 @@ TEST(SeenError, AlongTheRaysIsTwiceTheDistanceOfConvexSurfaces) {
 
 // As for a level. A frustum's directions do not see the sphere from below, so an eye at the side misses the largest
 // errors.
-TEST(SeenError, OfAReliefIsAlongTheRaysToo) {
+TEST(SeenError, ReliefErrorIsTwiceTheDistanceToo) {
     constexpr double smaller = 4e-3;
     constexpr int rows = 96;
     const SourceMesh source_mesh = sphere(rows);
@@ -170,7 +170,7 @@ TEST(SeenError, OfAReliefIsAlongTheRaysToo) {
     }
 }
 
-TEST(SeenError, OfTheSourceItselfIsThatOfThePacksCodes) {
+TEST(SeenError, SourceItselfHasOnlyQuantizationError) {
     const SourceMesh mesh = sphere(64);
     const SourceScene source(mesh, mesh.positions);
     const pack::SeenErrors seen = seen_errors(pack_of(mesh), {}, source, {});

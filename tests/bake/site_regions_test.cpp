@@ -136,7 +136,7 @@ TEST(CutSite, OpensNoGap) {
     EXPECT_GT(inside, 10'000);
 }
 
-TEST(CutSite, GivesNewCornersTheValuesOfTheirPlace) {
+TEST(CutSite, InterpolatesAttributesAtNewCorners) {
     const SourceMesh whole = hills(50);
     const SourceMesh cut = cut_site(whole, site_frame(whole), {.max_triangles = 500}).value();
     ASSERT_GT(cut.positions.size(), whole.positions.size());
@@ -153,7 +153,7 @@ TEST(CutSite, CutsAtLeastFourByFour) {
     EXPECT_EQ(cut_site(whole, site_frame(whole), {.max_triangles = 500'000}).value().nodes.size(), 16U);
 }
 
-TEST(CutSite, RefusesWhatIsNoSiteInOneSentence) {
+TEST(CutSite, RefusesUnsuitableModelsWithAReason) {
     const auto refusal = [](const SourceMesh& mesh, const char* up, std::size_t max_triangles) {
         const auto cut =
             cut_site(mesh, make_box_frame(mesh, {up, 0.0, 0.0}).value(), {.max_triangles = max_triangles});

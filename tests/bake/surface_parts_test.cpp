@@ -67,7 +67,7 @@ TEST(SurfaceParts, ASmallPartWithinTwoBoxesBelongsToTheSmaller) {
     EXPECT_EQ(parts.part_of[2 * box_triangles], parts.part_of[box_triangles]);
 }
 
-TEST(SurfaceParts, AChainHasAsManyPartsAsAreAllowed) {
+TEST(SurfaceParts, PartCountIsLimited) {
     std::vector<std::pair<glm::dvec3, glm::dvec3>> links;
     for (int k = 0; k < 10; ++k) {
         links.emplace_back(glm::dvec3(2 * k, 0, 0), glm::dvec3(2 * k + 1, 1, 1 + 0.1 * k));
@@ -81,7 +81,7 @@ TEST(SurfaceParts, AChainHasAsManyPartsAsAreAllowed) {
     EXPECT_EQ(find_parts(mesh, 0.5, 20).count, 1U) << "none is large: all are one";
 }
 
-TEST(SurfaceParts, SurfacesOfOneNodeAreOnePartAndNodesOfOneSurfaceToo) {
+TEST(SurfaceParts, SharedNodesAndSharedSurfacesJoinParts) {
     SourceMesh mesh = boxes({{{0, 0, 0}, {1, 1, 1}},
                              {{2, 0, 0}, {3, 1, 1}},
                              {{4, 0, 0}, {5, 1, 1}},
@@ -96,7 +96,7 @@ TEST(SurfaceParts, SurfacesOfOneNodeAreOnePartAndNodesOfOneSurfaceToo) {
     EXPECT_EQ(parts_in(parts, 2 * box_triangles, 4 * box_triangles).size(), 1U);
 }
 
-TEST(SurfaceParts, WhatAnotherPartHidesIsLeftOut) {
+TEST(SurfaceParts, HiddenPartsAreOmitted) {
     SourceMesh mesh = boxes({{{-1, -1, -1}, {1, 1, 1}}, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}});
     mesh.default_up = 'z';
     const BoxFrame frame = make_box_frame(mesh, {"z", 0.0, 0.0}).value();

@@ -40,7 +40,7 @@ double covered(const image::Image8& picture) {
     return sum;
 }
 
-TEST(TablePicture, of_a_sphere_is_a_disc_that_fills_the_frame) {
+TEST(TablePicture, sphere_is_a_disc_that_fills_the_frame) {
     const image::Image8& picture = of_red_sphere();
     EXPECT_EQ(std::max(picture.width, picture.height), table_picture_px);
     EXPECT_GE(std::min(picture.width, picture.height), table_picture_px - 3);

@@ -68,7 +68,7 @@ TEST(TableUnder, IsFoundInAnyPositionAndTheObjectStays) {
     }
 }
 
-TEST(TableUnder, HasAHoleWhereTheObjectHidIt) {
+TEST(TableUnder, IsFoundWithAHoleUnderTheObject) {
     SourceMesh mesh = empty_mesh();
     add_ball(mesh, 0.1);
     const std::size_t table =
@@ -76,7 +76,7 @@ TEST(TableUnder, HasAHoleWhereTheObjectHidIt) {
     EXPECT_EQ(find_table(mesh, {}).triangles, table);
 }
 
-TEST(TableUnder, WhatTheObjectStandsOnOfItsOwnStays) {
+TEST(TableUnder, OwnBasesAndFloorsAreKept) {
     SourceMesh plinth = empty_mesh(); // its bottom reaches no farther than its sides
     add_box(plinth, {-0.2, -0.2, 0.0}, {0.2, 0.2, 0.1});
     add_sphere(plinth, {0.0, 0.0, 0.2}, 0.1, 30);
@@ -103,7 +103,7 @@ TEST(TableUnder, WhatTheObjectStandsOnOfItsOwnStays) {
     EXPECT_EQ(find_table(ball, {}).triangles, 0U);
 }
 
-TEST(TableUnder, NothingOfAMeshWithoutAreaIsATable) {
+TEST(TableUnder, MeshWithoutAreaHasNoTable) {
     SourceMesh mesh = empty_mesh();
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     for (int k = 0; k < 200; ++k) {

@@ -98,7 +98,7 @@ double reach_of(const TriangleMesh& mesh, std::size_t blade, const glm::vec3& to
 
 } // namespace
 
-TEST(ThinParts, NoBladeIsShorterThanAMillimetreOnTheDefaultLevel) {
+TEST(ThinParts, BladesLoseAtMostAMillimetreOnTheDefaultLevel) {
     const SourceMesh mesh = body_with_blades(blade_end);
     BakeOptions options;
     options.relief = false;
@@ -127,7 +127,7 @@ TEST(ThinParts, NoBladeIsShorterThanAMillimetreOnTheDefaultLevel) {
     }
 }
 
-TEST(ThinParts, ALevelWhoseWorstPlaceIsOffByMoreThanAMillimetreIsNotGoodEnough) {
+TEST(ThinParts, ALevelOffByMoreThanAMillimetreIsNotGoodEnough) {
     const double mm_per_box = 100.0;
     const pack::SeenError seen{1e-5F, 1e-4F, 1e-5F, 1e-4F};
     EXPECT_TRUE(good_enough({1e-5F, 1e-4F, 0.0099F, 0.0F}, seen, mm_per_box));
@@ -151,7 +151,7 @@ TEST(ThinParts, TheSimplifierKeepsEveryCornerWithinItsTolerances) {
     }
 }
 
-TEST(ThinParts, TheGreatestErrorSeesThatABladeIsCut) {
+TEST(ThinParts, MaxErrorDetectsACutBlade) {
     const SourceMesh mesh = body_with_blades(blade_end);
     const SourceScene source(mesh, mesh.positions);
     const SourceSamples samples = sample_source(source, weld(mesh, mesh.positions), 1e-3F);

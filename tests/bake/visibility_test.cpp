@@ -14,7 +14,7 @@ TriangleMesh seen_of(const SourceMesh& mesh) {
 
 } // namespace
 
-TEST(Visibility, TheBottomAndWhatIsInsideAreDropped) {
+TEST(Visibility, BottomAndInsideAreDropped) {
     SourceMesh mesh = test::empty_mesh();
     test::add_box(mesh, {-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0});
     test::add_sphere(mesh, {0, 0, 0.5}, 0.3, 12);

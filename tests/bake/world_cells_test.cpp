@@ -173,7 +173,7 @@ TEST(WorldCells, ACellKeepsTheSideThatItRestsOn) {
     EXPECT_EQ(down, 1U);
 }
 
-TEST(WorldCells, APartThatIsPressedFlatIsNoCellAndItsTrianglesStay) {
+TEST(WorldCells, AFlattenedNodeIsNoCellAndKeepsItsTriangles) {
     SourceMesh mesh = chest();
     mesh.nodes[1].rest.scale.y = 0.0;
     const WorldCells made = bake_cells(mesh, frame_of(mesh, quick()), quick());
@@ -184,7 +184,7 @@ TEST(WorldCells, APartThatIsPressedFlatIsNoCellAndItsTrianglesStay) {
     EXPECT_NE(made.notes[0].text.find("(lid, knob)"), std::string::npos) << made.notes[0].text;
 }
 
-TEST(WorldCells, ACellOfNoSizeHasNoGeometry) {
+TEST(WorldCells, ACellWithoutExtentHasNoGeometry) {
     SourceMesh mesh = chest();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (mesh.triangle_nodes[t] == 2) {
@@ -215,7 +215,7 @@ TEST(WorldCells, ProgressNeverGoesBack) {
     EXPECT_GT(calls, 10);
 }
 
-TEST(WorldCells, GoIntoAPackAndComeBack) {
+TEST(WorldCells, RoundTripThroughAPack) {
     const SourceMesh mesh = chest();
     const BakeOptions options = quick();
     pack::Pack whole = bake(mesh, options).value();

@@ -7,7 +7,7 @@
 namespace frustumscreen {
 namespace {
 
-TEST(ByteReader, GivesBackWhatWasAppended) {
+TEST(ByteReader, RoundTrip) {
     Bytes bytes;
     append(bytes, std::uint16_t{0x0102});
     append_all(bytes, std::vector<std::uint32_t>{3, 4, 5});
@@ -22,7 +22,7 @@ TEST(ByteReader, GivesBackWhatWasAppended) {
     EXPECT_TRUE(reader.ok());
 }
 
-TEST(ByteReader, PastTheEndReadsNothingAndRemembers) {
+TEST(ByteReader, ReadingPastTheEndFailsAndStaysFailed) {
     const Bytes bytes(7);
     ByteReader one(bytes);
     EXPECT_EQ(one.read<std::uint64_t>(), 0U);

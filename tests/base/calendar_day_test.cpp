@@ -10,7 +10,7 @@ std::chrono::sys_days after_1970(int days) {
     return std::chrono::sys_days(std::chrono::days(days));
 }
 
-TEST(CalendarDay, IsReadAsItIsWritten) {
+TEST(CalendarDay, RoundTrip) {
     for (const auto& [text, days] : {std::pair("1970-01-01", 0), std::pair("2000-02-29", 11016),
                                      std::pair("2026-11-23", 20780), std::pair("2100-01-01", 47482)}) {
         EXPECT_EQ(text_of_day(after_1970(days)), text);
@@ -18,7 +18,7 @@ TEST(CalendarDay, IsReadAsItIsWritten) {
     }
 }
 
-TEST(CalendarDay, IsNothingElse) {
+TEST(CalendarDay, RejectsOtherText) {
     for (const std::string_view text : {"", "2030", "2030-12", "2030-12-32", "2030-13-01", "2030-00-10",
                                         "2100-02-29", "2030-1-1", "2030-12-31 ", " 2030-12-31", "+030-12-31",
                                         "2030/12/31", "2030-12-3a", "20301231", "2030-12-311"}) {

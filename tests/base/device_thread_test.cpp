@@ -19,7 +19,7 @@ int niceness() {
     return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()));
 }
 
-TEST(DeviceThread, HasItsNameItsPriorityAndNoStopSignals) {
+TEST(DeviceThread, SetsNameAndPriorityAndBlocksStopSignals) {
     const int usual = niceness();
     for (const ThreadPriority priority : {ThreadPriority::Usual, ThreadPriority::Low}) {
         std::jthread([&] {
@@ -37,7 +37,7 @@ TEST(DeviceThread, HasItsNameItsPriorityAndNoStopSignals) {
 }
 
 /// If a stop did not end the sleep, ctest's timeout would end this test.
-TEST(SleepUntilStop, EndsWhenAStopIsRequestedBeforeOrMeanwhile) {
+TEST(SleepUntilStop, EndsWhenAStopIsRequestedBeforeOrDuringIt) {
     constexpr Nanoseconds forever = std::chrono::hours(1000);
     std::stop_source before;
     before.request_stop();
@@ -53,7 +53,7 @@ TEST(SleepUntilStop, EndsWhenAStopIsRequestedBeforeOrMeanwhile) {
     }
 }
 
-TEST(SleepUntilStop, LastsItsTimeAndAllocatesNothing) {
+TEST(SleepUntilStop, SleepsItsTimeAndAllocatesNothing) {
     const std::stop_source never;
     const std::stop_token stop = never.get_token();
     const long before = synthetic::allocations_so_far();

@@ -13,7 +13,7 @@ namespace {
 
 using FolderEntriesTest = WithTemporaryFolder;
 
-TEST_F(FolderEntriesTest, AreInTheOrderOfTheirNames) {
+TEST_F(FolderEntriesTest, ListsEntriesSortedByName) {
     for (const char* const name : {"c", "a", "d/inner", "b"}) {
         put(name, "");
     }
@@ -26,7 +26,7 @@ TEST_F(FolderEntriesTest, AreInTheOrderOfTheirNames) {
     EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "c", "d"}));
 }
 
-TEST_F(FolderEntriesTest, AreAnErrorWhereThereIsNoFolder) {
+TEST_F(FolderEntriesTest, FailsWithoutAFolder) {
     put("file", "");
     for (const std::filesystem::path& no_folder : {folder / "file", folder / "missing"}) {
         const FolderEntries listed = entries_of(no_folder);

@@ -7,7 +7,7 @@
 namespace frustumscreen {
 namespace {
 
-TEST(Heartbeat, ComesAcrossThreads) {
+TEST(Heartbeat, IsVisibleAcrossThreads) {
     Heartbeat heartbeat(from_microseconds(5));
     EXPECT_EQ(heartbeat.promised_until(), from_microseconds(5));
     std::thread([&heartbeat] { heartbeat.promise(from_microseconds(7)); }).join();

@@ -8,7 +8,7 @@
 namespace frustumscreen {
 namespace {
 
-TEST(Latest, HandsOutTheNewestOnce) {
+TEST(Latest, ReturnsTheNewestValueOnce) {
     Latest<int> latest;
     int value = 7;
     EXPECT_FALSE(latest.take(value));
@@ -20,7 +20,7 @@ TEST(Latest, HandsOutTheNewestOnce) {
     EXPECT_FALSE(latest.try_take(value));
 }
 
-TEST(Latest, ValuesOfAThreadInAHurryArriveInOrderAndTheLastOneAlways) {
+TEST(Latest, ValuesArriveInOrderIncludingTheLast) {
     Latest<std::shared_ptr<const int>> latest;
     constexpr int count = 20'000;
     std::thread hurried([&] {

@@ -16,7 +16,7 @@ struct Item {
 constexpr std::size_t capacity = 256;
 using Box = Mailbox<Item, capacity>;
 
-TEST(Mailbox, KeepsTheNewestAndHandsOutNothingFromTheFuture) {
+TEST(Mailbox, KeepsTheNewestAndReturnsNoFutureItems) {
     Box mailbox;
     std::vector<Item> put(1);
     for (int k = 1; k <= 1000; ++k) {
@@ -36,7 +36,7 @@ TEST(Mailbox, KeepsTheNewestAndHandsOutNothingFromTheFuture) {
     EXPECT_TRUE(taken.empty());
 }
 
-TEST(Mailbox, PutAndTakenFromTwoThreadsLosesNoOrder) {
+TEST(Mailbox, KeepsOrderAcrossTwoThreads) {
     Box mailbox;
     constexpr int count = 20'000;
     std::thread device([&] {
@@ -64,7 +64,7 @@ TEST(Mailbox, PutAndTakenFromTwoThreadsLosesNoOrder) {
     device.join();
 }
 
-TEST(Sentence, ReadsAsItWasSetAndIsCutWhereItIsTooLong) {
+TEST(Sentence, KeepsItsTextAndTruncatesIfTooLong) {
     EXPECT_EQ(Sentence("at first").view(), "at first");
     const std::string long_text(1000, 'x');
     const Sentence cut(long_text);

@@ -28,7 +28,7 @@ protected:
 
 } // namespace
 
-TEST_F(OpenFileTest, gives_any_piece_that_lies_inside) {
+TEST_F(OpenFileTest, reads_any_range_inside_the_file) {
     const Result<OpenFile> file = OpenFile::open(folder / "digits", 10);
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_EQ(file->bytes(), 10U);
@@ -42,7 +42,7 @@ TEST_F(OpenFileTest, gives_any_piece_that_lies_inside) {
     EXPECT_TRUE(file->read(10, {}));
 }
 
-TEST_F(OpenFileTest, that_shrinks_meanwhile_gives_nothing_of_what_is_gone) {
+TEST_F(OpenFileTest, reading_beyond_a_truncated_end_fails) {
     const Result<OpenFile> file = OpenFile::open(folder / "digits", 10);
     ASSERT_TRUE(file);
     fs::resize_file(folder / "digits", 4);
@@ -52,7 +52,7 @@ TEST_F(OpenFileTest, that_shrinks_meanwhile_gives_nothing_of_what_is_gone) {
 }
 
 /// A status file is replaced by another while it is read.
-TEST_F(OpenFileTest, is_read_whole_though_another_takes_its_place) {
+TEST_F(OpenFileTest, reads_whole_files_during_replacement) {
     const std::string names[] = {"0123456789", "01234"};
     std::atomic<bool> over = false;
     std::thread writer([&] {
@@ -70,7 +70,7 @@ TEST_F(OpenFileTest, is_read_whole_though_another_takes_its_place) {
     EXPECT_EQ(cut, 0);
 }
 
-TEST_F(OpenFileTest, says_why_it_cannot_be_had) {
+TEST_F(OpenFileTest, reports_why_a_file_cannot_be_opened) {
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     EXPECT_NE(refusal("pipe").find("[file.not_regular]"), std::string::npos) << "and does not wait for it";
     EXPECT_NE(refusal(".").find("this is a folder"), std::string::npos);

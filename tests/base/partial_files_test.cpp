@@ -29,14 +29,14 @@ protected:
     }
 };
 
-TEST_F(PartialFiles, OfAProcessThatIsGoneAreClearedAway) {
+TEST_F(PartialFiles, DeletesFilesOfAnEndedProcess) {
     const std::string left = "scan.fspack.part" + gone();
     put(left);
     ASSERT_TRUE(check_output_place(folder / "scan.fspack"));
     EXPECT_FALSE(fs::exists(folder / left));
 }
 
-TEST_F(PartialFiles, OfALivingProcessAndOfOtherNamesStay) {
+TEST_F(PartialFiles, KeepsFilesOfLivingProcessesAndOtherNames) {
     const std::string number = gone();
     const std::string names[] = {"scan.fspack",
                                  "scan.fspack.part" + std::to_string(::getppid()),
@@ -60,7 +60,7 @@ TEST_F(PartialFiles, OfALivingProcessAndOfOtherNamesStay) {
 }
 
 /// No file can be created next to it, as on a full disk.
-TEST_F(PartialFiles, AFileThatIsRenewedIsWrittenOverWhereNothingFitsBesideIt) {
+TEST_F(PartialFiles, OverwritesInPlaceIfNoPartFileCanBeCreated) {
     const fs::path status = folder / "status.json";
     ASSERT_TRUE(renew_file(status, as_bytes("a long one")));
     fs::create_directory(status.string() + ".part" + std::to_string(::getpid()));
@@ -73,7 +73,7 @@ TEST_F(PartialFiles, AFileThatIsRenewedIsWrittenOverWhereNothingFitsBesideIt) {
     }
 }
 
-TEST_F(PartialFiles, AFileThatIsNotThereIsNotRenewedWhereNothingFits) {
+TEST_F(PartialFiles, FailsForANewFileIfNoPartFileCanBeCreated) {
     const fs::path status = folder / "status.json";
     fs::create_directory(status.string() + ".part" + std::to_string(::getpid()));
     const Result<void> renewed = renew_file(status, as_bytes("first"));

@@ -5,12 +5,12 @@
 namespace frustumscreen {
 namespace {
 
-TEST(Printable, KeepsWhatAPersonWroteInAnyLanguage) {
+TEST(Printable, KeepsTextOfAnyLanguage) {
     const std::string text = "\xC3\x84mter, \xE8\x8A\xB1\xE7\x93\xB6 \xF0\x9F\x8F\xBA";
     EXPECT_EQ(printable(text), text);
 }
 
-TEST(Printable, HasNothingThatATerminalActsOnOrThatIsNoCharacter) {
+TEST(Printable, ReplacesControlCharactersAndInvalidUtf8) {
     EXPECT_EQ(printable("clear \x1b[2J"), "clear ?[2J");
     EXPECT_EQ(printable("a\nb\tc\x7f"), "a?b?c?");
     EXPECT_EQ(printable("pack\u202Egpj.exe"), "pack?gpj.exe"); // would be displayed as packexe.jpg
@@ -24,7 +24,7 @@ TEST(Printable, HasNothingThatATerminalActsOnOrThatIsNoCharacter) {
     EXPECT_EQ(printable(std::string_view("\0", 1)), "?");
 }
 
-TEST(Printable, IsCutBetweenCharacters) {
+TEST(Printable, TruncatesBetweenCharacters) {
     EXPECT_EQ(printable("12345", 5), "12345");
     EXPECT_EQ(printable("123456", 5), "12345...");
     EXPECT_EQ(printable("1234\xC3\x84", 5), "1234...");

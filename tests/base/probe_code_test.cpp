@@ -19,7 +19,7 @@ Corner corner_of(const std::array<int, 8>& greys) {
     return corner;
 }
 
-TEST(ProbeCode, ItsLowestBitIsTheFirstPixelAndAOneIsTheBrighterGrey) {
+TEST(ProbeCode, LowestBitIsFirstAndOneIsTheBrighterGrey) {
     EXPECT_EQ(read_probe(corner_of({1, 1, 1, 1, 1, 1, 1, 1})), std::uint8_t{0});
     EXPECT_EQ(read_probe(corner_of({2, 1, 2, 1, 1, 1, 1, 1})), std::uint8_t{5});
     EXPECT_EQ(read_probe(corner_of({1, 1, 1, 1, 1, 1, 1, 2})), std::uint8_t{128});
@@ -28,7 +28,7 @@ TEST(ProbeCode, ItsLowestBitIsTheFirstPixelAndAOneIsTheBrighterGrey) {
     EXPECT_EQ(probe_grey(128, 7), 2);
 }
 
-TEST(ProbeCode, EveryCodeIsReadAsItIsWrittenWhateverAlphaIs) {
+TEST(ProbeCode, RoundTripOfEveryCodeWithAnyAlpha) {
     for (unsigned code = 0; code < 256; ++code) {
         std::array<int, 8> greys{};
         for (int k = 0; k < probe_pixels; ++k) {
@@ -41,7 +41,7 @@ TEST(ProbeCode, EveryCodeIsReadAsItIsWrittenWhateverAlphaIs) {
     }
 }
 
-TEST(ProbeCode, ThereIsNoneInBlackInBrightAndInColours) {
+TEST(ProbeCode, BlackBrightAndColouredPixelsHaveNoCode) {
     EXPECT_FALSE(read_probe(corner_of({0, 0, 0, 0, 0, 0, 0, 0})));
     EXPECT_FALSE(read_probe(corner_of({1, 1, 1, 1, 1, 1, 1, 3})));
     for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -30,7 +30,7 @@ template <typename T> void expect_torn(const Result<T>& result) {
     EXPECT_EQ(result.error().message, torn.message);
 }
 
-TEST(Result, TryIsTheValueOrHandsTheErrorOn) {
+TEST(Result, TryYieldsTheValueOrReturnsTheError) {
     const auto as_text = [](bool good) -> Result<std::string> {
         TRY(const int seven, number(good));
         return std::to_string(seven);
@@ -39,7 +39,7 @@ TEST(Result, TryIsTheValueOrHandsTheErrorOn) {
     expect_torn(as_text(false));
 }
 
-TEST(Result, TryAssignsToWhatIsThereAndLeavesItAfterAnError) {
+TEST(Result, TryAssignsToAnExistingVariableOnlyOnSuccess) {
     std::vector<int> numbers{1, 2};
     const auto assign = [&](bool good) -> Result<void> {
         TRY(numbers.at(1), number(good));
@@ -51,7 +51,7 @@ TEST(Result, TryAssignsToWhatIsThereAndLeavesItAfterAnError) {
     EXPECT_EQ(numbers, (std::vector{1, 7}));
 }
 
-TEST(Result, TryVoidGoesOnOrHandsTheErrorOn) {
+TEST(Result, TryVoidContinuesOrReturnsTheError) {
     int steps = 0;
     const auto walk = [&](bool good) -> Result<std::string> {
         TRY_VOID(step(true));
@@ -75,7 +75,7 @@ TEST(Result, TryMovesTheValueOut) {
     expect_torn(pass(false));
 }
 
-TEST(Result, TryCopiesFromAResultThatHasAName) {
+TEST(Result, TryCopiesFromANamedResult) {
     const Result<std::string> named = "seven";
     const auto pass = [&]() -> Result<std::string> {
         TRY(std::string text, named);
@@ -85,7 +85,7 @@ TEST(Result, TryCopiesFromAResultThatHasAName) {
     EXPECT_EQ(named.value(), "seven");
 }
 
-TEST(Result, TryVoidLeavesAResultThatHasANameAsItIs) {
+TEST(Result, TryVoidLeavesANamedResultUnchanged) {
     Result<std::unique_ptr<int>> named = owned(true);
     Result<void> late = step(false);
     const auto pass = [&]() -> Result<void> {
@@ -98,7 +98,7 @@ TEST(Result, TryVoidLeavesAResultThatHasANameAsItIs) {
     expect_torn(late);
 }
 
-TEST(Result, OneScopeAndOneLineHaveManyTries) {
+TEST(Result, AllowsManyTriesInOneScopeAndLine) {
     const auto sum = [](bool good) -> Result<int> {
         // clang-format off
         TRY(const int a, number(true)); TRY(const int b, number(good)); TRY_VOID(step(true)); TRY_VOID(step(true));
@@ -113,7 +113,7 @@ TEST(Result, OneScopeAndOneLineHaveManyTries) {
     expect_torn(sum(false));
 }
 
-TEST(Result, TryVoidTakesNoValueThatHoldsSomething) {
+TEST(Result, TryVoidRejectsOwningTemporaries) {
     static_assert(may_be_dropped<Result<void>&&> && may_be_dropped<Result<int>&&>);
     static_assert(!may_be_dropped<Result<std::unique_ptr<int>>&&> && !may_be_dropped<Result<std::string>&&>);
     static_assert(may_be_dropped<Result<std::unique_ptr<int>>&> &&
@@ -144,7 +144,7 @@ TEST(Result, TryEvaluatesItsExpressionOnce) {
     EXPECT_EQ(calls, 3);
 }
 
-TEST(Result, TryHandsOnErrorsOfOtherTypes) {
+TEST(Result, TryReturnsErrorsOfOtherTypes) {
     const auto wait = [](bool good) -> tl::expected<int, char> {
         return good ? tl::expected<int, char>(7) : tl::unexpected('!');
     };
@@ -156,7 +156,7 @@ TEST(Result, TryHandsOnErrorsOfOtherTypes) {
     EXPECT_EQ(pass(false).error(), '!');
 }
 
-TEST(Result, AtPutsThePlaceBeforeAnErrorOnly) {
+TEST(Result, AtPrefixesErrorsWithThePlace) {
     EXPECT_EQ(at("stand", number(true)).value(), 7);
     EXPECT_TRUE(at("stand", step(true)));
     EXPECT_EQ(*at("stand", owned(true)).value(), 7);
@@ -167,7 +167,7 @@ TEST(Result, AtPutsThePlaceBeforeAnErrorOnly) {
     EXPECT_EQ(lost.error().message, "stand: cable: torn; put in another");
 }
 
-TEST(Result, ASentenceIsFormattedBesideItsId) {
+TEST(Result, FailFormatsTheSentenceAndKeepsTheId) {
     const Result<int> lost = fail(ErrorKind::Internal, "cable.count", "{} of {} cables", 3, "nine");
     ASSERT_FALSE(lost);
     EXPECT_EQ(test::told(lost.error()), "3 of nine cables [cable.count]");

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(FollowProgram, TellsStatusSignalOutputAndComplaint) {
+TEST(FollowProgram, ReportsStatusSignalOutputAndStandardError) {
     ProgramLimits limits;
     limits.complaint_bytes = 9;
     const Result<ProgramEnd> ended =
@@ -25,7 +25,7 @@ TEST(FollowProgram, TellsStatusSignalOutputAndComplaint) {
     EXPECT_FALSE(follow_program({"/nowhere/program"}, "", limits));
 }
 
-TEST(FollowProgram, IsEndedWhenNobodyWaitsForIt) {
+TEST(FollowProgram, KillsTheProgramWhenGivenUp) {
     ProgramLimits limits;
     limits.time = 100s;
     std::atomic<int> asked{0};
@@ -34,7 +34,7 @@ TEST(FollowProgram, IsEndedWhenNobodyWaitsForIt) {
     EXPECT_EQ(asked, 3);
 }
 
-TEST(FollowProgram, IsFreeOfTheSignalsThatWeHoldBack) {
+TEST(FollowProgram, ProgramInheritsNoBlockedSignals) {
     sigset_t held;
     sigset_t before;
     sigemptyset(&held);

@@ -18,7 +18,7 @@ std::string repeated(std::string_view text, int times) {
     return all;
 }
 
-TEST(Sentence, HoldsWhatFitsToTheLastByte) {
+TEST(Sentence, HoldsTextUpToItsLastByte) {
     const std::string fits = repeated(amphora, 15);
     ASSERT_EQ(fits.size(), Sentence::longest);
     EXPECT_EQ(Sentence(fits).view(), fits);
@@ -29,7 +29,7 @@ TEST(Sentence, HoldsWhatFitsToTheLastByte) {
 
 /// Characters of one to four bytes, shifted byte by byte across the limit: only whole characters remain, as
 /// many as fit.
-TEST(Sentence, IsCutBetweenTwoCharacters) {
+TEST(Sentence, TruncatesBetweenCharacters) {
     for (const std::string_view character : {"a", "έ", "画", "𝄞"}) {
         for (int before = 0; before < 8; ++before) {
             const std::string text = repeated("x", before) + repeated(character, 300);
@@ -44,7 +44,7 @@ TEST(Sentence, IsCutBetweenTwoCharacters) {
     }
 }
 
-TEST(Sentence, OfBytesThatAreNoTextIsCutAllTheSame) {
+TEST(Sentence, TruncatesInvalidUtf8) {
     for (const char byte : {'\x80', '\xFF', '\xC3', '\0'}) {
         EXPECT_LE(Sentence(std::string(1000, byte)).view().size(), Sentence::longest);
     }

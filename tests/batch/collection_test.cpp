@@ -25,7 +25,7 @@ std::vector<std::string> names_of(const std::vector<BatchObject>& objects) {
     return names;
 }
 
-TEST_F(CollectionFolder, FoldersWithAnArtifactFileAndScansAreObjects) {
+TEST_F(CollectionFolder, ListsFoldersWithAnArtifactFileAndScans) {
     put("vase/artifact.toml");
     put("Bowl/artifact.toml");
     put("letters/notes.txt");
@@ -47,7 +47,7 @@ TEST_F(CollectionFolder, FoldersWithAnArtifactFileAndScansAreObjects) {
     EXPECT_FALSE(list_collection(folder / "nowhere", folder));
 }
 
-TEST(Shards, KeepTheirObjectsWhereOthersComeAndGo) {
+TEST(Shards, KeepTheirObjectsWhenOthersAreRemoved) {
     std::vector<BatchObject> objects;
     for (int k = 0; k < 1000; ++k) {
         objects.push_back({std::to_string(k), {}, {}});
@@ -60,7 +60,7 @@ TEST(Shards, KeepTheirObjectsWhereOthersComeAndGo) {
     EXPECT_EQ(names_of(share_of(objects, {3, 8})), before);
 }
 
-TEST(Shards, TogetherHaveEachObjectOnce) {
+TEST(Shards, ContainEachObjectOnce) {
     std::vector<BatchObject> objects;
     for (int k = 0; k < 23; ++k) {
         objects.push_back({std::to_string(k), {}, {}});
@@ -77,7 +77,7 @@ TEST(Shards, TogetherHaveEachObjectOnce) {
     }
 }
 
-TEST(Shards, AreWrittenAsANumberOfANumber) {
+TEST(Shards, AreParsedAsNumberAndCount) {
     const Result<Shard> shard = parse_shard("3/8");
     ASSERT_TRUE(shard);
     EXPECT_EQ(shard->number, 3U);
@@ -90,7 +90,7 @@ TEST(Shards, AreWrittenAsANumberOfANumber) {
     }
 }
 
-TEST_F(CollectionFolder, AFileHasTheHashThatSha256sumSays) {
+TEST_F(CollectionFolder, HashesFilesLikeSha256sum) {
     put("scan.stl", std::string(3'000'000, 'a') + "end");
     ASSERT_EQ(std::system(fmt::format("cd '{}' && sha256sum scan.stl >sum.txt", folder.string()).c_str()), 0);
     const Result<std::string> hash = hash_of_object(folder / "scan.stl");
@@ -100,7 +100,7 @@ TEST_F(CollectionFolder, AFileHasTheHashThatSha256sumSays) {
     EXPECT_FALSE(hash_of_file(folder)) << "a folder is no file";
 }
 
-TEST_F(CollectionFolder, AFolderIsKnownByNamesAndBytesAlone) {
+TEST_F(CollectionFolder, HashesFoldersByNamesAndBytesOnly) {
     put("vase/artifact.toml", "one");
     put("vase/recordings/en/description.wav", "two");
     const std::string before = *hash_of_object(folder / "vase");

@@ -30,7 +30,7 @@ const std::vector<BatchRow> rows = [] {
     return made;
 }();
 
-TEST_F(Report, CsvIsReadAsItWasMeant) {
+TEST_F(Report, WritesCsvThatReadsBackUnchanged) {
     put("report.csv", report_csv(rows));
     EXPECT_EQ(
         python(
@@ -43,7 +43,7 @@ TEST_F(Report, CsvIsReadAsItWasMeant) {
         "['plain', 'unchanged', '3.0', '', '10', 'T']\n");
 }
 
-TEST_F(Report, TheScansColumnsAreThoseOfACheck) {
+TEST_F(Report, HasTheColumnsOfACheck) {
     put("report.csv", report_csv(rows));
     put("report.html", report_page(rows, "C", 1.0, {}));
     std::string keys;
@@ -79,7 +79,7 @@ TEST_F(Report, TheScansColumnsAreThoseOfACheck) {
                   headings + "\n2 of 8192x4096, 16x16 G&B\n");
 }
 
-TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
+TEST_F(Report, EscapesEveryTextInThePage) {
     const std::vector<std::string> over{"old <stuff>"};
     put("report.html", report_page(rows, "Coll & <i>", 61.0, over));
     EXPECT_EQ(python("from html.parser import HTMLParser\n"
@@ -96,7 +96,7 @@ TEST_F(Report, ThePageShowsEveryWordAndRunsNone) {
         << "what failed comes first";
 }
 
-TEST(Summary, SaysHowManyOfEach) {
+TEST(Summary, CountsObjectsByStatus) {
     EXPECT_EQ(summary(rows), "3 objects: 1 baked, 1 unchanged, 1 failed");
     EXPECT_EQ(summary(std::span(rows).first(1)), "1 object: 1 baked");
 }

@@ -56,7 +56,7 @@ protected:
     BatchPlan plan;
 };
 
-TEST_F(Batch, WhatFailsStopsNothingElse) {
+TEST_F(Batch, ContinuesAfterFailures) {
     for (const char* name : {"good", "bad", "crash", "mute", "liar", "other"}) {
         add(name);
     }
@@ -78,7 +78,7 @@ TEST_F(Batch, WhatFailsStopsNothingElse) {
     EXPECT_EQ(bakes(), 6U);
 }
 
-TEST_F(Batch, WhatIsDoneIsLeftUntilItChanges) {
+TEST_F(Batch, SkipsUnchangedObjects) {
     add("a");
     add("b");
     add("bad");
@@ -106,14 +106,14 @@ TEST_F(Batch, WhatIsDoneIsLeftUntilItChanges) {
     EXPECT_EQ(run_all()[0].status, BatchStatus::Unchanged);
 }
 
-TEST_F(Batch, AFailureSaysThatAnOlderPackIsStillThere) {
+TEST_F(Batch, ReportsThatAFailureKeepsThePreviousPack) {
     add("bad");
     put("out/bad.fspack", "of last year");
     EXPECT_NE(run_all()[0].sentence.find("(the previous pack is still there)"), std::string::npos);
     EXPECT_EQ(text("out/bad.fspack"), "of last year");
 }
 
-TEST_F(Batch, TimeAndMemoryAreLimited) {
+TEST_F(Batch, LimitsTimeAndMemory) {
     add("slow");
     plan.limits.time = 300ms;
     EXPECT_EQ(run_all()[0].sentence,
@@ -128,7 +128,7 @@ TEST_F(Batch, TimeAndMemoryAreLimited) {
     EXPECT_EQ(rows[1].status, BatchStatus::Baked) << rows[1].sentence;
 }
 
-TEST_F(Batch, AReportAloneBakesNothing) {
+TEST_F(Batch, BakesNothingForAReportOnly) {
     add("a");
     add("bad");
     plan.bakes = false;

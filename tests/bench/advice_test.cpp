@@ -65,7 +65,7 @@ TEST(Advice, CountsTheProjectorsPixelsOnAnArtifact) {
     EXPECT_NEAR(figures.pixels, counted, 0.03 * counted);
 }
 
-TEST(Advice, KnowsWhetherThePictureCoversTheTable) {
+TEST(Advice, ReportsWhetherThePictureCoversTheTable) {
     settings::Settings settings = old_table();
     EXPECT_TRUE(examine(settings).covered);
     settings.projector.pinhole.fx *= 1.02;
@@ -75,7 +75,7 @@ TEST(Advice, KnowsWhetherThePictureCoversTheTable) {
     EXPECT_FALSE(examine(settings).covered);
 }
 
-TEST(Advice, WhatWorksKeepsItsPromises) {
+TEST(Advice, WorkingChoicesMeetTheRequirements) {
     AdviceOptions options;
     options.lowest_m = options.highest_m = 1.5;
     options.sides_m = 0.2;
@@ -117,7 +117,7 @@ std::size_t fields_in(const std::string& line) {
     return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
 }
 
-TEST(Advice, WhatAFrameCostsStandsInTableAndCsvIfItWasMeasured) {
+TEST(Advice, TableAndCsvContainMeasuredFrameCosts) {
     SetUpChoice now = as_it_is(old_table());
     std::vector<SetUpChoice> found(3, now);
     found[0].works = false;
@@ -143,7 +143,7 @@ TEST(Advice, WhatAFrameCostsStandsInTableAndCsvIfItWasMeasured) {
     EXPECT_NE(lines[2].find(",,,,"), std::string::npos) << "three empty fields";
 }
 
-TEST(Advice, SaysSoWhereNothingWorks) {
+TEST(Advice, ReportsWhenNothingWorks) {
     AdviceOptions options;
     options.lowest_m = options.highest_m = 0.6;
     options.sides_m = 0.0;

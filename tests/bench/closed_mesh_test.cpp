@@ -18,14 +18,14 @@ TEST(ClosedMesh, ATetrahedronIsClosed) {
     EXPECT_TRUE(is_closed(tetrahedron()));
 }
 
-TEST(ClosedMesh, VerticesSplitAtASeamAreStillOne) {
+TEST(ClosedMesh, MergesVerticesSplitAtASeam) {
     bake::SourceMesh mesh = tetrahedron();
     mesh.positions.push_back(mesh.positions[0] + glm::dvec3(1e-12, 0, 0));
     mesh.triangles[1][0] = 4;
     EXPECT_TRUE(is_closed(mesh));
 }
 
-TEST(ClosedMesh, AHoleAFlipInsideOutOrAMaskIsNot) {
+TEST(ClosedMesh, RejectsHolesFlippedTrianglesInvertedMeshesAndMasks) {
     bake::SourceMesh hole = tetrahedron();
     hole.triangles.pop_back();
     EXPECT_FALSE(is_closed(hole));

@@ -49,7 +49,7 @@ template <typename Narrows> double widest(const image::Image16& depth, int x, in
     return ratio;
 }
 
-TEST(ConeMap, AnEmptyConeIsTheWidestThatHoldsNothing) {
+TEST(ConeMap, EmptyConeIsTheWidestWithoutSurfaceInside) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const image::Image16 depth = hills(seed);
         const image::Image16 cones = empty_cones(depth);

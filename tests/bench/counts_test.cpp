@@ -53,7 +53,7 @@ TEST(Counts, AFrameTakesNoMoreThanTheProjectsReference) {
     }
 }
 
-TEST(Counts, ATriangleIsNeverCountedMoreOftenThanThePropHasFaces) {
+TEST(Counts, CountsATriangleAtMostOncePerPropFace) {
     const Result<CountedPack> counted = count_frames(set_up_of("near"), small_amphora(), 8, 3);
     ASSERT_TRUE(counted) << counted.error().message;
     const pack::PackLevel& level = small_amphora().levels[small_amphora().default_level];
@@ -66,7 +66,7 @@ TEST(Counts, ATriangleIsNeverCountedMoreOftenThanThePropHasFaces) {
     EXPECT_GE(counts.bytes, 12.0 * counts.triangles + 12.0 * counts.vertices + 4.0 * 1280 * 800);
 }
 
-TEST(Counts, WhatIsWrittenIsReadAgain) {
+TEST(Counts, RoundTrip) {
     const std::vector<CountedPack> written{{"a.glb, 5 triangles", "near", {1.5, 2.0, 3.0, 4.0, 5e6}}};
     const Result<std::vector<CountedPack>> read = read_counts(counts_json(written));
     ASSERT_TRUE(read) << read.error().message;
@@ -76,7 +76,7 @@ TEST(Counts, WhatIsWrittenIsReadAgain) {
     EXPECT_EQ((*read)[0].counts.bytes, 5e6);
 }
 
-TEST(Counts, GrowthBeyondAFewPercentIsSaid) {
+TEST(Counts, ReportsGrowthBeyondAFewPercent) {
     const std::vector<CountedPack> before{{"a", "near", {100, 100, 4, 1000, 1e6}}, {"b", "near", {}}};
     std::vector<CountedPack> now{{"a", "near", {104, 100, 4, 1000, 1e6}}, {"c", "near", {1, 1, 1, 1, 1}}};
     ASSERT_EQ(changes(now, before).size(), 1U); // only packs in both
@@ -87,14 +87,14 @@ TEST(Counts, GrowthBeyondAFewPercentIsSaid) {
     EXPECT_NE(counts_table(now, changes(now, before)).find("GROWN"), std::string::npos);
 }
 
-TEST(Counts, AnArtifactThatTheReferenceLacksIsNamed) {
+TEST(Counts, NamesArtifactsMissingFromTheReference) {
     const std::vector<CountedPack> reference{{"a", "near", {}}, {"b", "near", {}}};
     const std::vector<CountedPack> now{{"a", "near", {}}, {"a", "kiosk", {}}, {"c", "near", {}}};
     EXPECT_EQ(without_reference(now, reference), (std::vector<std::string>{"a in kiosk", "c in near"}));
     EXPECT_TRUE(without_reference(reference, reference).empty());
 }
 
-TEST(Counts, AFileThatIsNoReferenceIsRefusedInOneLine) {
+TEST(Counts, RejectsAnInvalidReferenceInOneLine) {
     for (const char* text : {"", "{}", "[1]", R"({"mean_of_a_frame":[{"artifact":3}]})"}) {
         const Result<std::vector<CountedPack>> read = read_counts(text);
         ASSERT_FALSE(read) << text;

@@ -27,7 +27,7 @@ TechniqueResult technique_of(std::vector<double> true_mm,
     return technique;
 }
 
-TEST(Coverage, CountsThePosesWhoseTruthIsNearTheEstimateAndBelowItsP95) {
+TEST(Coverage, CountsPosesNearTheEstimateAndBelowItsP95) {
     const scene::ErrorEstimate one{1.0, 3.0};
     const Coverage coverage =
         coverage_of(technique_of({0.69, 0.71, 1.0, 1.39, 1.41, 1.2, 5.0},
@@ -39,7 +39,7 @@ TEST(Coverage, CountsThePosesWhoseTruthIsNearTheEstimateAndBelowItsP95) {
     EXPECT_EQ(coverage_of(technique_of({1.0}, {})).poses, 0U); // a peer has no estimates
 }
 
-TEST(Coverage, IsHeldAtNineOfTenPosesOfAllTogether) {
+TEST(Coverage, RequiresNineTenthsOfAllPoses) {
     const auto with = [](std::size_t covered) {
         return std::vector<NamedCoverage>{{"a", "near", "mesh 0", {10, 10, 10, {}}},
                                           {"b, c", "kiosk", "mesh 1", {10, covered, 10, {}}}};
@@ -93,7 +93,7 @@ TEST(Coverage, HoldsForARing) {
 
 /// Boxes have errors only at their edges: for the two finest levels the estimate is 1.6 and 1.7 times too
 /// small.
-TEST(Coverage, HoldsForThingsThatHideEachOther) {
+TEST(Coverage, HoldsForObjectsThatOccludeEachOther) {
     expect_covered(things(), 1.8);
 }
 

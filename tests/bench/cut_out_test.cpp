@@ -71,7 +71,7 @@ protected:
     pack::Pack pack_;
 };
 
-TEST_F(CutOut, AFenceKeepsItsGapsAtEveryLevel) {
+TEST_F(CutOut, FenceKeepsItsGapsAtDefaultAndFinestLevel) {
     ASSERT_NO_FATAL_FAILURE(bake_fence(false));
     const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 6, 3);
     ASSERT_TRUE(poses);
@@ -86,7 +86,7 @@ TEST_F(CutOut, AFenceKeepsItsGapsAtEveryLevel) {
     }
 }
 
-TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
+TEST_F(CutOut, ShowsTheBackgroundThroughGapsWithoutAFringe) {
     ASSERT_NO_FATAL_FAILURE(bake_fence(true));
     const auto finest = static_cast<std::uint32_t>(pack_.levels.size() - 1);
     const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 6, 3);
@@ -100,7 +100,7 @@ TEST_F(CutOut, WhatStandsBehindShowsThroughTheGapsWithoutAFringe) {
 }
 
 /// Rays pass through the holes when the relief is made, and when it is compared.
-TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
+TEST_F(CutOut, ReliefKeepsGapsAndShowsTheBackgroundThroughThem) {
     for (const bool with_wall : {false, true}) {
         ASSERT_NO_FATAL_FAILURE(bake_fence(with_wall, true));
         const Truth truth = Truth::build(mesh_, pack::place(pack_, kiosk_.prop).prop_from_artifact).value();
@@ -126,7 +126,7 @@ TEST_F(CutOut, AReliefHasTheGapsAndWhatShowsThroughThem) {
     }
 }
 
-TEST_F(CutOut, AnArtifactWithoutMaskPaysNothing) {
+TEST_F(CutOut, ArtifactWithoutMaskHasNoCutTexels) {
     mesh_ = fence(true);
     mesh_->materials[0].alpha_mask = false;
     bake::BakeOptions options;

@@ -50,7 +50,7 @@ std::vector<LimitVerdict> verdicts_beside(const TechniqueResult& peer) {
     return verdicts;
 }
 
-TEST(Dominance, ByColourNobodyIsJudgedWhoLacksThePacksLight) {
+TEST(Dominance, SkipsColourForPeersWithoutThePacksLight) {
     SetUpResult result = with({technique("LOD 10k", TechniqueKind::Lod, 3.0, middling)});
     result.baked_light = true;
     const std::vector<LimitVerdict> verdicts = judge_dominance(result);
@@ -58,7 +58,7 @@ TEST(Dominance, ByColourNobodyIsJudgedWhoLacksThePacksLight) {
     EXPECT_NE(verdicts.front().what.find("shape"), std::string::npos);
 }
 
-TEST(Dominance, APeerThatIsCheaperAndNowhereWorseDominatesInBoth) {
+TEST(Dominance, CheaperPeerThatIsNowhereWorseDominatesInShapeAndColour) {
     const TechniqueResult peer = technique("LOD 10k", TechniqueKind::Lod, 3.0, middling);
     for (const LimitVerdict& verdict : verdicts_beside(peer)) {
         EXPECT_FALSE(verdict.held);
@@ -98,7 +98,7 @@ TEST(Dominance, ShapeIsJudgedAmongPicturesOfAsManySamples) {
     EXPECT_EQ(dominated_by(result, result.techniques[1], Dominance::Shape), "");
 }
 
-TEST(Dominance, ThePacksReliefsAreJudgedAndNoPeersOfItsLevels) {
+TEST(Dominance, JudgesThePacksReliefsButNotAgainstItsLevels) {
     const TechniqueResult relief = technique("relief96", TechniqueKind::PackRelief, 3.5, middling);
     EXPECT_TRUE(judge_dominance(with({relief})).empty()); // cheaper than the level, and no worse
     const TechniqueResult peer = technique("LOD", TechniqueKind::Lod, 3.0, {0.2, 0.1, 9.0});
@@ -112,7 +112,7 @@ TEST(Dominance, ThePacksReliefsAreJudgedAndNoPeersOfItsLevels) {
     EXPECT_NE(summary_csv({{result}}).find("relief96,pack relief"), std::string::npos);
 }
 
-TEST(Dominance, TimesWithinTheToleranceAreATieThatIsNamed) {
+TEST(Dominance, TreatsTimesWithinToleranceAsATieAndNamesThePeer) {
     for (const double cost : {3.85, 4.0, 4.15}) {
         for (const LimitVerdict& verdict :
              verdicts_beside(technique("LOD 10k", TechniqueKind::Lod, cost, middling))) {
@@ -132,7 +132,7 @@ TEST(Dominance, TheRayCastIsJudgedAndTheFloorIsNot) {
     EXPECT_TRUE(judge_dominance(with({})).empty());
 }
 
-TEST(Dominance, TheBestEyeImageIsTheCheapestThatNoOtherBettersAtItsCost) {
+TEST(Dominance, BestEyeImageIsTheCheapestNotBeatenAtItsCost) {
     const auto best_of = [](double cost_640, double cost_1024, double cost_1600) {
         const SetUpResult result =
             with({technique("640", TechniqueKind::TwoPass, cost_640, {0.4, 0.2, 9.0}),
@@ -150,7 +150,7 @@ TEST(Dominance, TheBestEyeImageIsTheCheapestThatNoOtherBettersAtItsCost) {
     EXPECT_EQ(best_of(30.0, 31.0, 32.0), "1600;640 of another mesh;");
 }
 
-TEST(Verdicts, TheTableOfVerdictsHasFourFieldsARow) {
+TEST(Verdicts, CsvHasFourFieldsInEachRow) {
     const SetUpResult result = with({technique("a \"quoted\", name", TechniqueKind::Lod, 3.0, middling)});
     const std::vector<LimitVerdict> figures = {{"level 0: said, and", "found", false}};
     const std::string csv = verdicts_csv({&result, 1}, figures);

@@ -21,20 +21,20 @@ protected:
     }
 };
 
-TEST_F(DrawTables, TheScriptGetsItsArgumentsAsTheyAre) {
+TEST_F(DrawTables, PassesArgumentsUnchanged) {
     const fs::path said = folder / "said";
     const fs::path echo = script("printf '%s|' \"$@\" >'" + said.string() + "'\n");
     ASSERT_TRUE(draw_tables(echo, {"a b.csv", "$HOME", ""}));
     EXPECT_EQ(text("said"), "a b.csv|$HOME||");
 }
 
-TEST_F(DrawTables, TheLastLineThatAFailingScriptSaysIsTheError) {
+TEST_F(DrawTables, ReportsTheLastLineOfAFailingScript) {
     const Result<void> drawn = draw_tables(script("echo one >&2; echo 'the other' >&2; exit 1\n"), {});
     ASSERT_FALSE(drawn);
     EXPECT_EQ(drawn.error().message, "the other");
 }
 
-TEST_F(DrawTables, AScriptThatFailsSilentlyOrDiesIsNamed) {
+TEST_F(DrawTables, NamesAScriptThatFailsSilentlyOrCrashes) {
     for (const char* lines : {"exit 3\n", "kill -9 $$\n"}) {
         const Result<void> drawn = draw_tables(script(lines), {});
         ASSERT_FALSE(drawn) << lines;
@@ -46,7 +46,7 @@ TEST_F(DrawTables, AWarningIsNoError) {
     EXPECT_TRUE(draw_tables(script("echo a warning >&2\n"), {}));
 }
 
-TEST_F(DrawTables, WhereThereIsNoScriptThePackageIsNamed) {
+TEST_F(DrawTables, ReportsAMissingScript) {
     const Result<void> drawn = draw_tables(folder / "none", {});
     ASSERT_FALSE(drawn);
     EXPECT_EQ(drawn.error().id, "plots.no_program") << drawn.error().message;

@@ -13,7 +13,7 @@
 namespace frustumscreen::bench {
 namespace {
 
-TEST(ChangeHistogram, SaysWhatTheListOfChangesSays) {
+TEST(ChangeHistogram, MatchesTheStatisticsOfTheListOfChanges) {
     ChangeHistogram histogram;
     EXPECT_EQ(histogram.changes(), 0);
     EXPECT_EQ(histogram.rms(), 0.0);
@@ -55,7 +55,7 @@ TEST(EdgeZones, LieAtTheEdgesOfFacesThatEyeAndLensSee) {
     EXPECT_EQ(zones.at(398, 279), EdgeZone::Near) << "of one, beside the other";
 }
 
-TEST(EdgeSparkle, CountsWhatChangesOnEdgesAndBesideThem) {
+TEST(EdgeSparkle, CountsChangesOnEdgesAndBesideThem) {
     const glm::u8vec4 grey(50, 50, 50, 255);
     std::array<image::Image8, 2> sharp{image::Image8(9, 5, grey), image::Image8(9, 5, grey)};
     std::array<image::Image8, 2> feathered = sharp;
@@ -79,7 +79,7 @@ TEST(EdgeSparkle, CountsWhatChangesOnEdgesAndBesideThem) {
     EXPECT_EQ(sparkle.beside_feathered.largest(), 3);
 }
 
-TEST(EdgeSparkle, FeatheringCalmsTheEdgesAndNothingElse) {
+TEST(EdgeSparkle, FeatheringReducesChangesOnlyAtEdges) {
     const std::shared_ptr<bake::SourceMesh> white = ring();
     white->textures[0].image = std::make_shared<image::Image8>(8, 8, glm::u8vec4(255));
     bake::BakeOptions options;

@@ -11,7 +11,7 @@
 namespace frustumscreen::bench {
 namespace {
 
-TEST(PackFigures, FalseOnesAreCaughtByMeasuring) {
+TEST(PackFigures, MeasuringDetectsFalseOnes) {
     const auto mesh = ring();
     bake::BakeOptions options;
     options.size = 64;

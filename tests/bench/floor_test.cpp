@@ -25,7 +25,7 @@ protected:
 constexpr std::array filters = {FloorFilter::Trilinear, FloorFilter::OneLevel};
 
 /// Averaging in linear light would fail this: black and white would give 188.
-TEST_F(Floor, ItsCodesAreAveragedAsCodesAndLieOnThePropAlone) {
+TEST_F(Floor, AveragesCodesAndLightsOnlyTheProp) {
     for (const FloorFilter filter : filters) {
         const std::unique_ptr<Technique> technique = floor(filter);
         for (const BenchPose& pose : poses_) {

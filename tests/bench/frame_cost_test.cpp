@@ -51,7 +51,7 @@ protected:
     const pack::Pack& pack_ = ring_pack();
 };
 
-TEST_F(FrameCosts, AreTimesOfTheFirstSetUp) {
+TEST_F(FrameCosts, AreRelativeToTheFirstSetUp) {
     const std::array<const settings::Settings*, 3> set_ups{&settings_, &large_, &settings_};
     double done = 0.0;
     const Result<std::vector<SetUpCost>> costs = frame_costs(set_ups, pack_, [&](double share) {

@@ -21,7 +21,7 @@ geometry::RigidTransform screw(double t_s) {
             {0.2 * std::cos(t_s), 0.2 * std::sin(t_s), 0.1 * t_s}};
 }
 
-TEST(HandMotion, WhatIsSlidGoesAsTheHandAcrossTheTableAndTurnsWithIt) {
+TEST(HandMotion, SlidObjectFollowsTheHandAcrossTheTableAndItsYaw) {
     const HandMotion motion = slid(screw, 1.0);
     const geometry::RigidTransform moved = motion(0.3);
     EXPECT_NEAR(moved.translation.x, 0.2 * (std::cos(1.3) - std::cos(1.0)), 1e-12);
@@ -30,7 +30,7 @@ TEST(HandMotion, WhatIsSlidGoesAsTheHandAcrossTheTableAndTurnsWithIt) {
     EXPECT_EQ(motion(0.0).translation, glm::dvec3(0.0));
 }
 
-TEST(HandMotion, WhatIsSlidIsNeitherLiftedNorTilted) {
+TEST(HandMotion, SlidObjectIsNeitherLiftedNorTilted) {
     const HandMotion tilts = [](double t_s) {
         return geometry::RigidTransform{tracking::rotation_of({0.4 * t_s, 0.3, 0.0}), {0.0, 0.0, t_s}};
     };
@@ -39,7 +39,7 @@ TEST(HandMotion, WhatIsSlidIsNeitherLiftedNorTilted) {
     EXPECT_LT(glm::distance(moved.rotation * glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(0.0, 0.0, 1.0)), 1e-12);
 }
 
-TEST(HandMotion, ARecordingGoesStraightFromPoseToPose) {
+TEST(HandMotion, RecordingIsInterpolatedLinearlyBetweenPoses) {
     const glm::dquat turned = tracking::rotation_of({0.0, 0.0, 0.6});
     const std::array<RecordedPose, 2> poses{{{1.0, {}}, {1.5, {turned, glm::dvec3(0.1, 0.0, 0.0)}}}};
     const geometry::RigidTransform half_way = recorded(poses)(1.25);

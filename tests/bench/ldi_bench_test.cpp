@@ -12,7 +12,7 @@
 namespace frustumscreen::bench {
 namespace {
 
-TEST(WindowPath, GoesThroughSeveralPatchesAndNeverRests) {
+TEST(WindowPath, VisitsEveryPatchAndNeverStops) {
     const ldi::Hemisphere hemisphere(frozen_from_m);
     const std::vector<WindowFrame> path = window_path(40, 3);
     std::set<std::size_t> patches;

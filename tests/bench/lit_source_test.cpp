@@ -83,7 +83,7 @@ TEST(LitSource, IsTheLightThatFallsOnThePlaceItself) {
     EXPECT_GT(brightest, 1.15 * darkest) << "the box shadows some of these places";
 }
 
-TEST(LitSource, IsThatOfTheSideWhichTheRayMeets) {
+TEST(LitSource, UsesTheSideHitByTheRay) {
     const auto mesh = floor_and_box();
     const LitSource lit(mesh, glm::dmat4(1.0));
     const glm::dvec2 w = weights_at(-0.3, -0.45);

@@ -73,7 +73,7 @@ TEST(Measure, ColourErrorsCountChannelsAndPixels) {
     EXPECT_NEAR(error.sixteen_rays.rmse, std::sqrt(400.0 / 12.0), 1e-12);
 }
 
-TEST(Measure, SixteenCodesOffIsNotYetBad) {
+TEST(Measure, BadPixelsDifferByMoreThanSixteenCodes) {
     const TruthPicture truth = truth_of({"#.....", "......", "......", "......", "......", "......"});
     Drawn drawn{truth.colour, truth.point_m};
     drawn.colour.at(0, 0).g = 116;
@@ -88,7 +88,7 @@ TEST(Measure, PixelsAtThePicturesEdgeAreOutline) {
     EXPECT_EQ(error.outline_pixels, 20);
 }
 
-TEST(Measure, TheShownPicturesLightIsTheShareThatIsCovered) {
+TEST(Measure, MeasuresCoverageAndColourOfTheShownPicture) {
     TruthPicture truth = truth_of(square);
     truth.shown16 = truth.colour;
     truth.met_by_16 = image::Image<std::uint8_t>(6, 6);

@@ -40,7 +40,7 @@ TEST(MixedWalk, StaysInTheZoneAndIsContinuous) {
     EXPECT_EQ(again->back().eye_m, walk->back().eye_m);
 }
 
-TEST(Popping, IsZeroForASteadyErrorAndTellsAJump) {
+TEST(Popping, IsZeroForASteadyErrorAndMeasuresAJump) {
     image::Image<std::uint8_t> prop(4, 2);
     prop.at(0, 0) = prop.at(1, 0) = 1;
     image::Image8 truth(4, 2, glm::u8vec4(100));
@@ -65,7 +65,7 @@ TEST(GameBoard, HasANodeForEachPart) {
     EXPECT_NEAR(static_cast<double>(board.triangles.size()), 20'000.0, 1'500.0);
 }
 
-TEST(Mixed, MeasuresBothWaysAtEachBudget) {
+TEST(Mixed, MeasuresBothTechniquesAtEachBudget) {
     const TemporaryFolder folder;
     bake::SourceMesh mesh;
     const pack::Pack pack = small_pack(mesh);

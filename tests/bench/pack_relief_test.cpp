@@ -38,7 +38,7 @@ protected:
     const pack::Pack& pack_ = ring_pack();
 };
 
-TEST_F(PackRelief, ThereIsARowForEachByTheNameThatDrawsIt) {
+TEST_F(PackRelief, HasANamedRowForEachReliefOnCpuAndGpu) {
     Result<Comparison> opened = open_comparison({"near", kiosk_.settings}, pack_, {}, mesh_, {{}, 4, 3});
     ASSERT_TRUE(opened) << opened.error().message;
     ASSERT_TRUE(opened->set->add_reliefs(pack_, {}));

@@ -47,7 +47,7 @@ TEST(PaperChoice, TheMostImportantCellsArePolygonsWithinTheBudget) {
     EXPECT_EQ(chosen({distance_alone, 150.0}, cells), (std::vector{1, 0, 0}));
 }
 
-TEST(PaperChoice, ACellWhoseTexelTakesNoMoreThanAPixelStaysRelief) {
+TEST(PaperChoice, KeepsReliefForTexelsNoLargerThanAPixel) {
     const std::vector<PaperCell> cells{cell(1.0, 0.1, 1, 0, 10), cell(1.01, 5.0, 1, 0, 10)};
     EXPECT_EQ(chosen({distance_alone, 1e9}, cells), (std::vector{0, 1}));
 }
@@ -64,7 +64,7 @@ TEST(PaperChoice, CountsTheCellsThatChange) {
     EXPECT_EQ(choice.switches(), 2U);
 }
 
-TEST(PaperChoice, TheSearchFindsTheTermThatTellsErrors) {
+TEST(PaperChoice, SearchFindsWeightsThatPredictErrors) {
     // The cell of more relief error is the nearer one, and every other term says the opposite.
     std::vector<std::vector<PaperCell>> frames;
     for (int frame = 0; frame < 4; ++frame) {

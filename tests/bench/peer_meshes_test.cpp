@@ -27,7 +27,7 @@ protected:
     std::vector<BenchPose> poses_ = draw_poses(kiosk_.settings, kiosk_.prop, 5, 11).value();
 };
 
-TEST_F(PeerMeshes, TheRayCastIsTheTruthToRounding) {
+TEST_F(PeerMeshes, RayCastMatchesTheTruthToRounding) {
     for (const bool masked : {false, true}) {
         if (masked) { // every other stripe is cut out
             auto image = std::make_shared<image::Image8>(*mesh_->textures[0].image);
@@ -122,7 +122,7 @@ TEST_F(PeerMeshes, SimplifyingKeepsSeamsAndMaterials) {
     }
 }
 
-TEST_F(PeerMeshes, CullingLeavesOutNothingThatShows) {
+TEST_F(PeerMeshes, CullingKeepsEverythingVisible) {
     for (const bool closed : {true, false}) {
         if (!closed) { // with triangles missing, the inside is visible
             mesh_->triangles.resize(mesh_->triangles.size() / 2);
@@ -144,7 +144,7 @@ TEST_F(PeerMeshes, CullingLeavesOutNothingThatShows) {
     }
 }
 
-TEST(PeerChoice, IsAllNoneOrAList) {
+TEST(PeerChoice, ParsesAllNoneOrAList) {
     const auto all = parse_peers("all");
     ASSERT_TRUE(all);
     EXPECT_TRUE(all->mesh && all->two_pass && all->ray_cast && all->lod && all->two_pass_lod);
@@ -158,7 +158,7 @@ TEST(PeerChoice, IsAllNoneOrAList) {
     EXPECT_TRUE(parse_peers("ray-cast")->ray_cast);
 }
 
-TEST(PeerChoice, AWrongNameIsOneLineThatSaysTheRightOnes) {
+TEST(PeerChoice, RejectsAnUnknownNameInOneLineWithTheAllowedOnes) {
     for (const char* words :
          {"", "lods", "mesh,", ",mesh", "mesh,,lod", "mesh, lod", "none,mesh", "all,mesh"}) {
         const auto choice = parse_peers(words);

@@ -17,7 +17,7 @@ protected:
     std::shared_ptr<const PeerMesh> peer_ = PeerMesh::upload(*mesh_, glm::dmat4(1.0)).value();
 };
 
-TEST_F(Peers, TheFullMeshThroughTheCollineationIsTheRayCast) {
+TEST_F(Peers, FullMeshThroughTheCollineationMatchesTheRayCast) {
     auto full = make_full_mesh(kiosk_, peer_);
     ASSERT_TRUE(full);
     const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 6, 5);
@@ -32,7 +32,7 @@ TEST_F(Peers, TheFullMeshThroughTheCollineationIsTheRayCast) {
     }
 }
 
-TEST_F(Peers, TwoPassesComeNearerToTheRayCastWithALargerEyeImage) {
+TEST_F(Peers, TwoPassErrorShrinksWithALargerEyeImage) {
     const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 4, 6);
     ASSERT_TRUE(poses);
     auto coarse = make_two_pass(kiosk_, peer_, 128);
@@ -50,7 +50,7 @@ TEST_F(Peers, TwoPassesComeNearerToTheRayCastWithALargerEyeImage) {
     }
 }
 
-TEST_F(Peers, SeveralSamplesComeNearerToSixteenRaysAtTheSamePlaces) {
+TEST_F(Peers, MoreSamplesReduceColourErrorWithoutMovingPoints) {
     const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 2, 8);
     ASSERT_TRUE(poses);
     auto one = make_full_mesh(kiosk_, peer_);
@@ -98,7 +98,7 @@ TEST_F(Peers, APictureDoesNotDependOnTheOneBefore) {
     }
 }
 
-TEST_F(Peers, TheRayCastsSamplesComeNearerToSixteenRays) {
+TEST_F(Peers, MoreRayCastSamplesReduceColourError) {
     const auto poses = draw_poses(kiosk_.settings, kiosk_.prop, 2, 8);
     ASSERT_TRUE(poses);
     for (const BenchPose& pose : *poses) {

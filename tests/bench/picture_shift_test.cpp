@@ -34,7 +34,7 @@ image::Image8 disc(const glm::dvec2& centre, double brightness = 1.0) {
 
 constexpr glm::dvec2 middle(23.7, 24.2);
 
-TEST(PictureShift, OfTheSamePictureIsNothing) {
+TEST(PictureShift, IsZeroForTheSamePicture) {
     const std::optional<glm::dvec2> shift = picture_shift(disc(middle), disc(middle));
     ASSERT_TRUE(shift);
     EXPECT_EQ(glm::length(*shift), 0.0);
@@ -42,7 +42,7 @@ TEST(PictureShift, OfTheSamePictureIsNothing) {
 
 /// An edge is steeper within its pixel than the difference of two pixels suggests, so the shift is up to a
 /// fifth too large.
-TEST(PictureShift, IsFoundToAHundredthOfAPixelAndAFifthOfItself) {
+TEST(PictureShift, IsMeasuredWithinAHundredthOfAPixelPlusAFifth) {
     for (const glm::dvec2 moved : {glm::dvec2(0.02, 0.0), glm::dvec2(-0.05, 0.05), glm::dvec2(0.0, 0.2),
                                    glm::dvec2(0.5, 0.0), glm::dvec2(-0.5, 0.5)}) {
         const std::optional<glm::dvec2> shift = picture_shift(disc(middle), disc(middle + moved));
@@ -53,7 +53,7 @@ TEST(PictureShift, IsFoundToAHundredthOfAPixelAndAFifthOfItself) {
     }
 }
 
-TEST(PictureShift, IsNotMadeByAPictureThatIsDarkerOrLarger) {
+TEST(PictureShift, IgnoresDarkerOrLargerPictures) {
     std::optional<glm::dvec2> shift = picture_shift(disc(middle), disc(middle, 0.8));
     ASSERT_TRUE(shift);
     EXPECT_LT(glm::length(*shift), 0.01);
@@ -64,7 +64,7 @@ TEST(PictureShift, IsNotMadeByAPictureThatIsDarkerOrLarger) {
     EXPECT_LT(glm::length(*shift), 0.01);
 }
 
-TEST(PictureShift, IsOpenWhereNoEdgeTellsIt) {
+TEST(PictureShift, IsUndefinedWithoutEdgesInBothDirections) {
     const image::Image8 black(size, size, glm::u8vec4(0, 0, 0, 255));
     EXPECT_FALSE(picture_shift(black, black));
     const image::Image8 stripe = picture_of([](double x, double) { return x > 10.0 && x < 20.5; });

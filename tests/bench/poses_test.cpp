@@ -16,7 +16,7 @@ settings::Settings overhead() {
     return settings;
 }
 
-TEST(Poses, AreTheSameForTheSameSeedAndOthersForAnother) {
+TEST(Poses, DependOnlyOnTheSeed) {
     const settings::Settings settings = overhead();
     const geometry::PropShape prop = settings::make_prop(settings.prop);
     const auto a = draw_poses(settings, prop, 20, 7);
@@ -72,7 +72,7 @@ TEST(Poses, StayInsideTheZone) {
     EXPECT_TRUE(left && far);
 }
 
-TEST(Poses, EveryFaceThatTheEyeSeesIsLit) {
+TEST(Poses, ZoneRequiresEveryFaceSeenByTheEyeToBeLit) {
     const settings::Settings settings = overhead();
     const geometry::PropShape prop = settings::make_prop(settings.prop);
     BenchPose pose{{glm::dquat(1.0, 0.0, 0.0, 0.0), {0.0, 0.0, 0.0}}, {0.6, 0.0, 0.3}};

@@ -53,7 +53,7 @@ std::shared_ptr<bake::SourceMesh> ball() {
     return mesh;
 }
 
-TEST(Projection, TheVisitorsRayCastMeetsABallWhereAlgebraSaysSo) {
+TEST(Projection, VisitorsRayCastHitsABallWhereAlgebraPredicts) {
     const BenchPose pose = pose_at(0.03, 0.02, 0.8);
     const geometry::PropShape prop = geometry::make_frustum({});
     const simulation::VisitorScene scene = scene_of(near_settings(), prop, pose);
@@ -81,7 +81,7 @@ TEST(Projection, TheVisitorsRayCastMeetsABallWhereAlgebraSaysSo) {
     EXPECT_GT(judged, 200);
 }
 
-TEST(Projection, RightPixelsAreCountedOnThePropAndOnTheArtifact) {
+TEST(Projection, CountsCorrectPixelsOnThePropAndOnTheArtifact) {
     VisitorTruth truth{{4, 1, 1}, {4, 1}, {4, 1, glm::u8vec4(0, 0, 0, 255)}};
     truth.prop.at(3, 0) = 0;
     truth.hit.at(0, 0) = truth.hit.at(1, 0) = 1;
@@ -139,12 +139,12 @@ protected:
     }
 };
 
-TEST_F(ProjectedRing, StandsWhereTheVisitorsEyeExpectsIt) {
+TEST_F(ProjectedRing, MatchesTheVisitorsRayCast) {
     const BenchPose pose = pose_at(0.02, 0.01, 0.3);
     EXPECT_GE(right_percent(pose, pose), min_right_percent);
 }
 
-TEST_F(ProjectedRing, BesideItsPlaceIsCaught) {
+TEST_F(ProjectedRing, DetectsAShiftedPropOrEye) {
     const BenchPose pose = pose_at(0.02, 0.01, 0.3);
     BenchPose shifted = pose;
     shifted.table_from_prop.translation.x += 0.005;

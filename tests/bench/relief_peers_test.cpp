@@ -67,7 +67,7 @@ TEST(ReliefImages, HoldTheFirstHitOfEveryTexel) {
     EXPECT_GE(solid, hits / 2);
 }
 
-TEST(ReliefImages, AFaceIsCutToThePixelsWhoseRaysMeetTheBox) {
+TEST(ReliefImages, ShadowOnAFaceCoversExactlyTheRaysThatHitTheBox) {
     const geometry::PropShape prop = geometry::make_frustum({});
     const geometry::Box box{{-0.02, -0.03, 0.01}, {0.03, 0.01, 0.09}};
     std::mt19937_64 engine(3);
@@ -113,7 +113,7 @@ TEST(ReliefImages, AFaceIsCutToThePixelsWhoseRaysMeetTheBox) {
 class ReliefPeers : public DrawnNear {};
 
 /// The ring is a relief from two sides, so every method can show it whole.
-TEST_F(ReliefPeers, EachComesNearToTheRayCastOfARing) {
+TEST_F(ReliefPeers, EachApproximatesTheRayCastOfARing) {
     const auto mesh = ring();
     const auto truth = Truth::build(mesh, glm::dmat4(1.0));
     ASSERT_TRUE(truth);

@@ -75,7 +75,7 @@ TEST_F(ReportPage, AFrameOfEachModelHasItsCostAndErrors) {
                  "| | relief384 | 1.8 | 0.010 | 0.020 | 0.005 | 0.009 |\n");
 }
 
-TEST_F(ReportPage, APeerIsTheCheapestOfThoseThatAreAsGood) {
+TEST_F(ReportPage, ListsTheCheapestPeerThatIsAsGood) {
     put("peers/skull/error_time.csv",
         std::string(frame_columns) +
             "kiosk,mesh 2 (default),pack level,2,3.0,0,0,0.100,0.050,0\n"
@@ -95,7 +95,7 @@ TEST_F(ReportPage, APeerIsTheCheapestOfThoseThatAreAsGood) {
                  "| sword | 4 | 3.0 | | none as good | |\n");
 }
 
-TEST_F(ReportPage, PosesAreCountedAndTheShownPicturesWorstIsThatOfBothSetUps) {
+TEST_F(ReportPage, CountsPosesAndTakesTheWorstShownPictureOfBothSetUps) {
     const std::string poses =
         "set_up,technique,geometric_mean_mm,outline_shift_px,silhouette_percent,shown_cover_px,"
         "shown_cover_of_samples_px,shown_shift_px,shown_rmse\n"
@@ -112,7 +112,7 @@ TEST_F(ReportPage, PosesAreCountedAndTheShownPicturesWorstIsThatOfBothSetUps) {
                  "|---|---|---|---|---|---|\n| skull | relief384 | 4 | 0.100 | 0.030 | 7.2 |\n");
 }
 
-TEST_F(ReportPage, AnEstimateIsCountedByWhatWasDrawn) {
+TEST_F(ReportPage, GroupsEstimatesByTheDrawnTechnique) {
     put("estimate/six/estimate.csv", "artifact,level,poses,covered\n"
                                      "\"a, b\",mesh 0 (default),6,5\n\"a, b\",mesh 1,6,3\n"
                                      "c,mesh 1,6,6\nc,mesh 2,6,1\nc,auto (mesh 1),6,4\nc,relief96,6,2\n");
@@ -123,7 +123,7 @@ TEST_F(ReportPage, AnEstimateIsCountedByWhatWasDrawn) {
                              "| | reliefs | 2 | 6 |\n");
 }
 
-TEST_F(ReportPage, WhatVisitorsSeeIsAveragedOverPosesAndSequences) {
+TEST_F(ReportPage, AveragesProjectionShimmerAndEdges) {
     put("projection/skull/projection.csv", "set_up,technique,right_16_rays_percent\n"
                                            "kiosk,ray-cast picture,99\nkiosk,ray-cast picture,98\n"
                                            "kiosk,mesh 1 (default),97\nkiosk,mesh 1 (default),96.5\n"
@@ -145,7 +145,7 @@ TEST_F(ReportPage, WhatVisitorsSeeIsAveragedOverPosesAndSequences) {
                  "|---|---|---|---|---|\n| near | skull | 5.3 | 2.0 | 1.0 |\n"); // sqrt((3 x 16 + 64) / 4)
 }
 
-TEST_F(ReportPage, CommandsWithoutAPackHaveOneFolderEach) {
+TEST_F(ReportPage, FillsTablesOfCommandsWithoutAPack) {
     put("detail/scaling_near.csv", "source_triangles,technique,cpu_times_floor\n"
                                    "1000000,mesh 3 (default),8.5\n1000000,mesh 6,30\n1000000,relief384,5.64\n"
                                    "1000000,two-pass 1024,79.4\n500,mesh 0 (default),1\n");
@@ -171,7 +171,7 @@ TEST_F(ReportPage, CommandsWithoutAPackHaveOneFolderEach) {
                           "|---|---|---|---|\n| shipped | 0 | 0.00070 % | 1.23 % |\n");
 }
 
-TEST_F(ReportPage, ZonesHaveTheLightOfTheFirstPictureOverTheirOwnArea) {
+TEST_F(ReportPage, ScalesZoneLightByTheAreaOfTheFirstPicture) {
     put("zones/zones.csv",
         "throw_ratio,picture_width_m,picture_depth_m,zone_width_m,zone_depth_m,pixels,"
         "pixels_a_metre\n"
@@ -190,7 +190,7 @@ TEST_F(ReportPage, ABakeHasTheNameOfItsFolder) {
                           "| cat | 4 | 3.2 | 100 | 0.64 |\n| skull | 7 | 14.8 | 123 | 3.13 |\n");
 }
 
-TEST_F(ReportPage, WhatTestsMeasureIsOneFolder) {
+TEST_F(ReportPage, FillsTablesOfTestMeasurements) {
     put("tests/texts.csv", "language,texels_per_em,spread_texels,atlas_bytes,rms_at_20_px,rms_at_60_px\n"
                            "zh,48,2,13300,4.14,11.1\nen,24,2,1,9,9\nen,48,4,1,9,9\nen,48,2,8349,3.3,8.45\n"
                            "de,48,2,1,9,9\n");
@@ -205,7 +205,7 @@ TEST_F(ReportPage, WhatTestsMeasureIsOneFolder) {
         "|---|---|---|---|---|\n| none | 8.5 % | 6.8 % | | |\n| tags | 26.1 % | 25.1 % | 27.7 | |\n");
 }
 
-TEST_F(ReportPage, ATableWithoutItsCsvStaysAndSaysWhichFilesAreMissing) {
+TEST_F(ReportPage, KeepsATableWithoutCsvAndNamesTheMissingFiles) {
     put("ladder/ladder_policies.csv",
         "policy,whole,untracked,words,dark,longest_dark_s,reboots,false_alarms\n");
     const std::string page = page_of("ladder", "| kept |\n") + page_of("shimmer", "");
@@ -265,7 +265,7 @@ TEST_F(ReportPage, TableCellsAreQuotedForMarkdown) {
 }
 
 /// Reads with each table what the bench itself writes: every column that a table asks for is there.
-TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
+TEST_F(ReportPage, ReadsTheBenchsOwnCsvFiles) {
     TechniqueResult mesh;
     mesh.name = "mesh 1 (default)";
     mesh.kind = TechniqueKind::PackLevel;
@@ -339,7 +339,7 @@ TEST_F(ReportPage, TheBenchsOwnCsvFilesHaveTheColumns) {
 }
 
 /// No table of docs/measurements.md is written by hand, and none is missing there or in docs/bench.md.
-TEST(ReportTables, ThePageHasAllOfThemAndNoOther) {
+TEST(ReportTables, PagesHaveEveryTableOnceAndNoHandWrittenOne) {
     const std::string page = text_of(source_dir() + "/docs/measurements.md");
     const auto marked = marked_tables(page, "measurements.md");
     ASSERT_TRUE(marked) << marked.error().message;
@@ -363,7 +363,7 @@ TEST(ReportTables, ThePageHasAllOfThemAndNoOther) {
     }
 }
 
-TEST(ReportTables, NamesAreThoseOfOneTableEach) {
+TEST(ReportTables, NamesAreUnique) {
     std::set<std::string> names;
     for (const ReportTable& table : all_report_tables()) {
         EXPECT_TRUE(names.insert(table.name).second) << table.name;

@@ -27,7 +27,7 @@ std::vector<RoomSource> named_sources() {
     return sources;
 }
 
-TEST(RoomScene, HasAsManyObjectsAsAskedForAndIsReadBackFromItsFile) {
+TEST(RoomScene, HasTheRequestedObjectsAndSurvivesARoundTrip) {
     const std::vector<RoomSource> sources = named_sources();
     for (const int objects : {min_room_objects, 57, 200}) {
         const room::Room made = make_room(sources, objects, 3);
@@ -62,7 +62,7 @@ TEST(RoomScene, SomeObjectsMoveAndNoneLeavesItsPlinth) {
     }
 }
 
-TEST(RoomWalks, MoveTheEyeInEveryFrameAndStayBeforeTheScreen) {
+TEST(RoomWalks, MoveTheEyeInEveryFrameInFrontOfTheScreen) {
     const settings::ScreenSettings screen;
     const std::vector<RoomWalk> walks = room_walks(screen, 600);
     ASSERT_EQ(walks.size(), 3U);
@@ -150,7 +150,7 @@ TEST_F(SmallRoom, EveryTechniqueHasItsRowAndAnErrorThatIsFinite) {
     }
 }
 
-TEST_F(SmallRoom, AnObjectThatStandsACentimetreAsideShowsInTheError) {
+TEST_F(SmallRoom, DetectsAnObjectDisplacedByACentimetre) {
     const std::unique_ptr<RoomSet> set = open();
     const std::vector<RoomWalk> walks = room_walks(settings_.screen, 2);
     const auto error_mm = [&](const room::Room& true_room) {

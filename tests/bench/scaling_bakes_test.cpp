@@ -8,7 +8,7 @@
 namespace frustumscreen::bench {
 namespace {
 
-TEST(ScalingBakes, ReadsWhatABakeSaysOfItself) {
+TEST(ScalingBakes, ParsesTheReportOfABake) {
     const Result<ScalingBake> bake = scaling_bake_from(
         R"({"bytes": 12, "seconds": 3.5, "processor_seconds": 6.5, "memory_bytes": 7000, "default_level": 0,
             "levels": [{"mean_mm": 0.25}, {"mean_mm": 0.125}], "scan": {"triangles": 99}})");
@@ -22,7 +22,7 @@ TEST(ScalingBakes, ReadsWhatABakeSaysOfItself) {
     EXPECT_EQ(bake->levels, 2U);
 }
 
-TEST(ScalingBakes, AnotherReportIsRefused) {
+TEST(ScalingBakes, RejectsMalformedReports) {
     for (const char* text : {"", "{}", "[1]", R"({"levels": [], "default_level": 0})"}) {
         EXPECT_FALSE(scaling_bake_from(text)) << text;
     }

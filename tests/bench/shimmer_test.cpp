@@ -20,7 +20,7 @@ image::Image<float> flicker_of(const std::vector<int>& sequence) {
     return flicker.per_pixel();
 }
 
-TEST(Flicker, EvenChangeIsNoShimmer) {
+TEST(Flicker, IsZeroForLinearChange) {
     EXPECT_FLOAT_EQ(flicker_of({10, 13, 16, 19, 22}).at(0, 0), 0.0F);
     EXPECT_FLOAT_EQ(flicker_of({200, 150, 100, 50}).at(1, 0), 0.0F);
     EXPECT_FLOAT_EQ(flicker_of({0, 255}).at(0, 0), 0.0F); // two pictures are not enough
@@ -38,7 +38,7 @@ TEST(Flicker, IsTheRootMeanSquareOfSecondDifferences) {
     EXPECT_FLOAT_EQ(red_only.per_pixel().at(0, 0), 20.0F / std::sqrt(3.0F));
 }
 
-TEST(Shimmer, IsSummedUpOverTheJudgedPixelsAlone) {
+TEST(Shimmer, IsComputedOnlyOverTheJudgedPixels) {
     image::Image<float> values(1000, 2);
     image::Image<std::uint8_t> judged(1000, 2);
     for (int x = 0; x < 1000; ++x) {
@@ -52,7 +52,7 @@ TEST(Shimmer, IsSummedUpOverTheJudgedPixelsAlone) {
     EXPECT_DOUBLE_EQ(shimmer_of(values, judged).q999, 4.0);
 }
 
-TEST(Shimmer, ASpeckleIsAnExcessAndAnEdgeBesideTheTruthsIsNot) {
+TEST(Shimmer, CountsASpeckleAsExcessButNotAShiftedEdge) {
     image::Image<std::uint8_t> judged(20, 20, 1);
     image::Image<float> truth(20, 20, 3.0F);
     image::Image<float> drawn(20, 20, 3.0F);
@@ -109,7 +109,7 @@ protected:
     std::optional<ShimmerSequence> sequence_;
 };
 
-TEST_F(ShimmerOfTheTruth, AgainstItselfIsOne) {
+TEST_F(ShimmerOfTheTruth, RatioToItselfIsOne) {
     ShimmerMaps maps;
     const SequenceShimmer found =
         sequence_->judge([this](const BenchPose& pose) { return cast(pose); }, maps);
@@ -120,7 +120,7 @@ TEST_F(ShimmerOfTheTruth, AgainstItselfIsOne) {
     EXPECT_EQ(found.excess_pixels, 0);
 }
 
-TEST_F(ShimmerOfTheTruth, APictureThatJittersByHalfAPixelIsCaught) {
+TEST_F(ShimmerOfTheTruth, DetectsJitterOfHalfAPixel) {
     int frame = 0;
     ShimmerMaps maps;
     const SequenceShimmer found = sequence_->judge(
@@ -132,7 +132,7 @@ TEST_F(ShimmerOfTheTruth, APictureThatJittersByHalfAPixelIsCaught) {
     EXPECT_GT(found.rms_ratio(), 1.5);
 }
 
-TEST_F(ShimmerOfTheTruth, PixelsThatBlinkWhereTheArtifactIsSmoothAreFoundOneByOne) {
+TEST_F(ShimmerOfTheTruth, CountsEachBlinkingPixelOnSmoothSurface) {
     const TruthPicture first = truth_->cast(prop_, view_of(settings_, sequence_->poses().front()), false);
     // Far inside the ring's body, where no neighbour shimmers: 11 x 11 pixels that all show it.
     const auto inside = [&](int x, int y) {

@@ -61,7 +61,7 @@ protected:
     pack::Pack pack_;
 };
 
-TEST_F(ShownPictureTest, LightSoftEdgesAndCoverAreTheTruths) {
+TEST_F(ShownPictureTest, LightSoftEdgesAndCoverageMatchTheTruth) {
     for (const auto& [k1, share] : {std::pair(0.0, 1.0F), std::pair(0.1, 0.15F)}) {
         kiosk_.settings.projector.pinhole.lens = {k1, 0.0};
         bake_in(share);
@@ -76,7 +76,7 @@ TEST_F(ShownPictureTest, LightSoftEdgesAndCoverAreTheTruths) {
     }
 }
 
-TEST_F(ShownPictureTest, FewSamplesCostWhatExactRaysAtTheirPlacesDo) {
+TEST_F(ShownPictureTest, FewSamplesErrAsMuchAsExactRaysAtTheirPlaces) {
     bake_in(1.0F);
     const Errors errors = errors_of(pack_.default_level, 2);
     for (const ShownError& error : {errors.level, errors.relief}) {
@@ -87,7 +87,7 @@ TEST_F(ShownPictureTest, FewSamplesCostWhatExactRaysAtTheirPlacesDo) {
 }
 
 /// Light other than the target, and edges that are wrongly soft, must be detected.
-TEST_F(ShownPictureTest, AnotherLightIsAnError) {
+TEST_F(ShownPictureTest, DetectsWrongExposureAndSharpEdges) {
     bake_in(1.0F);
     const Result<Comparison> opened =
         open_comparison({"near", kiosk_.settings}, pack_, {}, mesh_, {{}, 1, 3});

@@ -64,7 +64,7 @@ TEST_P(SolidProps, TheFloorCoversTheFacesThatAreSeenAndLit) {
     }
 }
 
-TEST_P(SolidProps, TheFullMeshIsTheRayCastAndTwoPassesComeNearIt) {
+TEST_P(SolidProps, FullMeshMatchesTheRayCastAndTwoPassesApproximateIt) {
     const std::shared_ptr<const PeerMesh> peer = PeerMesh::upload(*mesh_, glm::dmat4(1.0)).value();
     const std::unique_ptr<Technique> full = make_full_mesh(kiosk_, peer).value();
     const std::unique_ptr<Technique> two_pass = make_two_pass(kiosk_, peer, 1024).value();
@@ -83,7 +83,7 @@ TEST_P(SolidProps, TheFullMeshIsTheRayCastAndTwoPassesComeNearIt) {
 }
 
 /// Fans of quadrilaterals cover each face once: a prism's pixels do not depend on which corner of a face comes first.
-TEST_P(SolidProps, TheAdviceCountsTheSamePixelsFromAnyFirstCorner) {
+TEST_P(SolidProps, AdvicePixelsDoNotDependOnTheFirstCorner) {
     settings::Settings turned = kiosk_.settings;
     geometry::PropShape shape = kiosk_.prop;
     for (geometry::PropFace& face : shape.faces) {

@@ -88,7 +88,7 @@ bool holds(const std::vector<LitCorner>& lit, const glm::dvec3& point) {
     return false;
 }
 
-TEST(TriangleSplitter, PartsOfATriangleInTheBeamHaveItsAreaAndItsTurn) {
+TEST(TriangleSplitter, PartsKeepTheTrianglesAreaAndWinding) {
     SeededDraw draw(1);
     const TriangleSplitter splitter(beam_of(Attenuation::SmoothStep));
     for (int k = 0; k < 100; ++k) {
@@ -249,7 +249,7 @@ Split split_wall(const Beam& beam, const Splitting& splitting) {
     return split;
 }
 
-TEST(TriangleSplitter, TheBoundKeepsItsToleranceWithFewerTrianglesThanLength) {
+TEST(TriangleSplitter, BoundMeetsItsToleranceWithFewerTrianglesThanLength) {
     int fewer = 0;
     for (const Attenuation attenuation :
          {Attenuation::InverseSquare, Attenuation::Linear, Attenuation::SmoothStep}) {
@@ -269,7 +269,7 @@ TEST(TriangleSplitter, TheBoundKeepsItsToleranceWithFewerTrianglesThanLength) {
     EXPECT_GE(fewer, 2);
 }
 
-TEST(TriangleSplitter, AFullListTakesTrianglesUnsplitAndNothingRunsForEver) {
+TEST(TriangleSplitter, FullListTakesTrianglesUnsplitAndSplittingTerminates) {
     const TriangleSplitter splitter(beam_of(Attenuation::InverseSquare));
     std::vector<LitCorner> lit;
     for (int k = 0; k < 20; ++k) {

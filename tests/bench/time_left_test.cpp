@@ -8,7 +8,7 @@
 namespace frustumscreen::bench {
 namespace {
 
-TEST(TimeLeft, CountsTheStepsToCome) {
+TEST(TimeLeft, IncludesTheRemainingSteps) {
     TimeLeft left({{"near: errors", "errors", 10.0},
                    {"near: times", "times", 20.0},
                    {"kiosk: errors", "errors", 10.0},
@@ -34,7 +34,7 @@ TEST(TimeLeft, AStepTakesAsLongAsTheLastOfItsKind) {
     EXPECT_DOUBLE_EQ(*left.update("kiosk: errors", 0.5, 130.0), 20.0 + 100.0); // slower than predicted
 }
 
-TEST(TimeLeft, WithoutAPlanItIsThatOfTheStepAlone) {
+TEST(TimeLeft, EstimatesOnlyTheCurrentStepWithoutAPlan) {
     TimeLeft left;
     EXPECT_FALSE(left.update("a", 0.0, 0.0));
     EXPECT_DOUBLE_EQ(*left.update("a", 0.5, 3.0), 3.0);

@@ -17,7 +17,7 @@
 namespace frustumscreen::bench {
 namespace {
 
-TEST(TorchSweep, MovesSteadilyAroundTheArtifactAndLooksAtIt) {
+TEST(TorchSweep, MovesContinuouslyAroundTheArtifactAndAimsAtIt) {
     const settings::Settings settings = near_settings();
     const geometry::PropShape prop = settings::make_prop(settings.prop);
     const geometry::Box box{{-0.05, -0.04, 0.0}, {0.05, 0.04, 0.1}};
@@ -46,7 +46,7 @@ TEST(TorchSweep, MovesSteadilyAroundTheArtifactAndLooksAtIt) {
               sweep->back().table_from_torch.translation);
 }
 
-TEST(IntensityError, CountsLitPixelsAloneAndTellsLightInShadow) {
+TEST(IntensityError, CountsOnlyLitPixelsAndReportsLightInShadow) {
     TorchTruth truth{.place = {4, 1, TorchPlace::Lit}, .intensity = {4, 1, 0.5F}};
     truth.place.at(2, 0) = TorchPlace::Shadow;
     truth.place.at(3, 0) = TorchPlace::Unclear;
@@ -61,7 +61,7 @@ TEST(IntensityError, CountsLitPixelsAloneAndTellsLightInShadow) {
 }
 
 /// Two squares of a metre across the beam, one behind the other.
-TEST(TorchTruth, HasTheAttenuationAndTheShadowOfWhatStandsBefore) {
+TEST(TorchTruth, HasAttenuationAndShadowsOfOccluders) {
     auto level = std::make_shared<scene::LevelTriangles>();
     const auto add_square = [&](float half, float z) {
         const auto first = static_cast<std::uint32_t>(level->positions.size());
@@ -100,7 +100,7 @@ TEST(TorchTruth, HasTheAttenuationAndTheShadowOfWhatStandsBefore) {
     EXPECT_NEAR(static_cast<double>(cast.intensity.texels[2]), 0.01 / 0.17, 1e-6);
 }
 
-TEST(TorchWall, ShorterEdgesErrLessAndTheBoundIsKept) {
+TEST(TorchWall, ShorterEdgesReduceTheErrorAndTheBoundIsKept) {
     const std::vector<WallRow> rows = measure_wall();
     for (std::size_t k = 0; k < rows.size(); ++k) {
         if (rows[k].splitting.by == torch::Splitting::By::Bound) {

@@ -243,7 +243,7 @@ TEST(Truth, SixteenRaysAreTheMeanOfAGridInLinearLight) {
     EXPECT_GT(judged, 60);
 }
 
-TEST(Truth, AGridOfRaysCoversWhatTheCentresOfSmallerPixelsMeet) {
+TEST(Truth, CoverageMatchesTheHitsOfFinerPixels) {
     const geometry::PropShape prop = geometry::make_frustum({});
     const auto truth = Truth::build(random_mesh(11), into_prop());
     ASSERT_TRUE(truth);
@@ -279,7 +279,7 @@ TEST(Truth, AGridOfRaysCoversWhatTheCentresOfSmallerPixelsMeet) {
     EXPECT_GT(in_part, 30);
 }
 
-TEST(Truth, TheRayGoesOnBehindTheProp) {
+TEST(Truth, RayContinuesBehindTheProp) {
     // A wall far behind the prop, seen through it as through a window.
     auto mesh = std::make_shared<bake::SourceMesh>();
     mesh->positions = {{-50.0, 5.0, -50.0}, {50.0, 5.0, -50.0}, {0.0, 5.0, 50.0}};
@@ -304,7 +304,7 @@ TEST(Truth, TheRayGoesOnBehindTheProp) {
     EXPECT_GT(seen, 50);
 }
 
-TEST(Truth, ScaleAndPlaceOfTheFileDoNotMatter) {
+TEST(Truth, DoesNotDependOnTheFilesScaleAndPlace) {
     // The mesh in a file's frame a thousand times larger and far off: 64-bit set-up gives an equal picture.
     const geometry::PropShape prop = geometry::make_frustum({});
     const auto mesh = random_mesh(5);
@@ -328,7 +328,7 @@ TEST(Truth, ScaleAndPlaceOfTheFileDoNotMatter) {
     }
 }
 
-TEST(Truth, FrontSidesAloneAreMetWhereTheyAreAskedFor) {
+TEST(Truth, HitsOnlyFrontSidesOnRequest) {
     auto mesh = std::make_shared<bake::SourceMesh>();
     mesh->positions = {{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {0.0, 1.0, 1.0},
                        {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
@@ -349,7 +349,7 @@ TEST(Truth, FrontSidesAloneAreMetWhereTheyAreAskedFor) {
     EXPECT_EQ(hit.triangle, 0U);
 }
 
-TEST(Truth, AMeshWithoutTrianglesIsRefused) {
+TEST(Truth, RejectsAnEmptyMeshAndANanPlacement) {
     EXPECT_FALSE(Truth::build(std::make_shared<bake::SourceMesh>(), glm::dmat4(1.0)));
     EXPECT_FALSE(Truth::build(random_mesh(1), glm::dmat4(std::nan(""))));
 }

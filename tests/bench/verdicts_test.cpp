@@ -52,7 +52,7 @@ std::size_t missed(const std::vector<LimitVerdict>& verdicts) {
                       [](const LimitVerdict& verdict) { return !verdict.held && !verdict.wished; }));
 }
 
-TEST(Verdicts, ASilhouetteHoldsInAPoseByItsShareOrByItsShift) {
+TEST(Verdicts, AcceptsASilhouetteByItsShareOrItsShift) {
     const auto verdict = [](std::vector<PictureError> errors) {
         return judge(technique("t", TechniqueKind::PackLevel, 0, 1.0, std::move(errors)),
                      default_level_limits)
@@ -63,7 +63,7 @@ TEST(Verdicts, ASilhouetteHoldsInAPoseByItsShareOrByItsShift) {
     EXPECT_FALSE(verdict({picture_error(0.1, 0.1, 0, 0), picture_error(0.61, 0.31, 0, 0)}));
 }
 
-TEST(Verdicts, WhatAutoDrawsIsUnderTheDefaultLevelsLimits) {
+TEST(Verdicts, AppliesTheDefaultLevelsLimitsToAuto) {
     SetUpResult result = example();
     result.techniques.push_back(
         technique("auto (mesh 0)", TechniqueKind::Auto, 0, 3.0, {picture_error(1.79, 0.9, 0.229, 10.0)}));
@@ -76,7 +76,7 @@ TEST(Verdicts, WhatAutoDrawsIsUnderTheDefaultLevelsLimits) {
     EXPECT_EQ(missed(judge(result)), 2U);
 }
 
-TEST(Verdicts, OfWhatAutoMayDrawTheQuickerOneIsJudged) {
+TEST(Verdicts, JudgesTheFasterOneOfAutosChoices) {
     for (const double mesh_cost : {3.0, 2.0}) {
         SetUpResult result = example();
         result.techniques.push_back(technique("auto (mesh 0)", TechniqueKind::Auto, 0, mesh_cost,
@@ -100,7 +100,7 @@ TEST(Verdicts, OneBadPoseMissesALimit) {
     EXPECT_EQ(missed(judge(level, default_level_limits)), 1U);
 }
 
-TEST(Verdicts, APictureLiesWhereItsMeshDoesAndMayLieBesideTheScanAsItsOutlineMay) {
+TEST(Verdicts, LimitsTheShiftFromTheMeshAndFromTheScan) {
     const auto missed_at = [](double drawn_px, double shown_px) {
         PictureError error = picture_error(0, 0, 0.01, 1.0);
         error.drawn_shift_px = drawn_px;
@@ -113,7 +113,7 @@ TEST(Verdicts, APictureLiesWhereItsMeshDoesAndMayLieBesideTheScanAsItsOutlineMay
     EXPECT_EQ(missed_at(0.5, 0.5), 2U); // half a pixel displaced
 }
 
-TEST(Verdicts, ThePictureThatIsShownIsUnderTheSameLimits) {
+TEST(Verdicts, AppliesLimitsToTheShownPicture) {
     PictureError error = picture_error(0, 0, 0.01, 1.0);
     error.shown = ShownError{};
     error.shown->cover_px = 0.42;
@@ -142,7 +142,7 @@ TEST(Verdicts, ThePictureThatIsShownIsUnderTheSameLimits) {
         1U);
 }
 
-TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
+TEST(Verdicts, ComparesTwoPassWithTheCheapestLevelThatIsAsGood) {
     const SetUpResult result = example();
     const TechniqueResult* level = cheapest_as_good(result, result.techniques[3]);
     ASSERT_NE(level, nullptr);
@@ -161,7 +161,7 @@ TEST(Verdicts, TheTwoPassMethodIsComparedWithTheCheapestLevelThatIsAsGood) {
     EXPECT_EQ(missed(judge(none)), 0U);
 }
 
-TEST(Verdicts, ALimitThatIsMissedIsAnErrorOfOneLine) {
+TEST(Verdicts, ReportsMissedLimitsInOneLine) {
     std::vector<SetUpResult> results = {example(), example()};
     EXPECT_TRUE(require_limits(results));
     results[1].name = "kiosk";
@@ -192,7 +192,7 @@ TEST(Verdicts, TheFasterFloorIsTheUnit) {
     EXPECT_EQ(results[2].cpu_times_floor, 9.0 / 7.0);
 }
 
-TEST(Verdicts, AFineLevelIsBothFineAndCheap) {
+TEST(Verdicts, FineLevelMustBeBothAccurateAndCheap) {
     SetUpResult result = example();
     ASSERT_EQ(missed(judge(result)), 0U);
     result.techniques[2].times_floor = 8.1;
@@ -204,7 +204,7 @@ TEST(Verdicts, AFineLevelIsBothFineAndCheap) {
     EXPECT_EQ(missed(judge(result)), 2U); // the finest level misses its own limit too
 }
 
-TEST(Verdicts, AReliefMayBeTheFineOne) {
+TEST(Verdicts, PackReliefMayMeetTheFineLimit) {
     SetUpResult result = example();
     result.techniques[2].times_floor = 8.1;
     result.techniques[3].times_floor = 80.0;
@@ -216,7 +216,7 @@ TEST(Verdicts, AReliefMayBeTheFineOne) {
     EXPECT_EQ(missed(judge(result)), 1U);
 }
 
-TEST(Verdicts, WishesAreSaidOfThePacksCheapestRowAndEndNoRun) {
+TEST(Verdicts, ReportsUnmetGoalsWithoutFailingTheRun) {
     SetUpResult result = example();
     const auto wishes = [&result] {
         std::vector<LimitVerdict> verdicts = judge(result);
@@ -264,7 +264,7 @@ TEST(Report, EveryRowHasAsManyFieldsAsTheHeader) {
     }
 }
 
-TEST(Report, WhatTheKioskDoesNotShowIsEmpty) {
+TEST(Report, LeavesMissingShownErrorsEmpty) {
     SetUpResult result = example();
     result.techniques[1].errors[0].shown = ShownError{0.125, 0.0, 0.0, {}, 0.0};
     result.techniques[1].error = summarise(result.techniques[1].errors);

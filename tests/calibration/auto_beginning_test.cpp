@@ -57,7 +57,7 @@ struct Beginning {
 constexpr auto next = &AutoProcedure::Input::next;
 constexpr auto back = &AutoProcedure::Input::back;
 
-TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
+TEST(AutoProcedure, BackGoesOnToTheCrossesOnlyIfTheyFollow) {
     for (const bool follow : {false, true}) {
         Beginning table(follow);
         table.wait(0.1, camera::CameraState::Running);
@@ -74,7 +74,7 @@ TEST(AutoProcedure, GoesOnToTheCrossesWhereTheyFollow) {
     EXPECT_EQ(refused.stage(), CalibrationStage::Left) << "it was measured, and could not be kept";
 }
 
-TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
+TEST(AutoProcedure, ReportsACameraFaultAndGoesOnWithBack) {
     for (const camera::CameraState fault :
          {camera::CameraState::NotConnected, camera::CameraState::Dark, camera::CameraState::InUse}) {
         Beginning table(true);
@@ -101,7 +101,7 @@ TEST(AutoProcedure, TellsOfACameraThatSeesNothingAndGoesOn) {
     EXPECT_EQ(forgotten.procedure.stage(), CalibrationStage::Left);
 }
 
-TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
+TEST(AutoProcedure, ReportsAMissingCameraButNotDarknessDuringDelay) {
     for (const bool follow : {false, true}) {
         const CalibrationStage after = follow ? CalibrationStage::GoesOn : CalibrationStage::Begin;
         Beginning lost(follow);
@@ -127,7 +127,7 @@ TEST(AutoProcedure, GoesOnFromACameraThatDoesNotSeeTheLight) {
     }
 }
 
-TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
+TEST(AutoProcedure, ReportsNoLightIfTheCameraLooksElsewhere) {
     for (const bool follow : {false, true}) {
         Beginning elsewhere(follow);
         elsewhere.wait(0.1, camera::CameraState::Running);
@@ -146,7 +146,7 @@ TEST(AutoProcedure, GoesOnFromACameraThatLooksElsewhere) {
     }
 }
 
-TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
+TEST(AutoProcedure, EveryMessageKeyHasASentence) {
     std::set<std::string> said;
     for (int word = 0; word <= static_cast<int>(AutoPrompt::TooFew); ++word) {
         for (const Posture wished : {Posture::Flat, Posture::Block, Posture::Leaning}) {
@@ -161,7 +161,7 @@ TEST(AutoProcedure, EverythingThatIsSaidHasItsWord) {
     expect_sentences(said);
 }
 
-TEST(CalibrationWays, BackLeadsFromTheQuickestToTheCrosses) {
+TEST(CalibrationWays, OrderIsTouchUpThenCameraThenCrosses) {
     using enum programs::CalibrationWay;
     using Ways = std::vector<programs::CalibrationWay>;
     EXPECT_EQ(programs::ways_through(true, true), (Ways{TouchUp, Camera, Crosses}));
@@ -170,7 +170,7 @@ TEST(CalibrationWays, BackLeadsFromTheQuickestToTheCrosses) {
     EXPECT_EQ(programs::ways_through(false, false), (Ways{Crosses}));
 }
 
-TEST(AutoProcedure, LeavesWhenNobodyIsThere) {
+TEST(AutoProcedure, TimesOutAtTheBeginning) {
     AutoPlan plan;
     plan.stripes = stripes_for(640, 400);
     AutoProcedure procedure(*board_for(usual_prop), plan);

@@ -243,7 +243,7 @@ TEST(AutoProcedure, CalibratesTheTable) {
     EXPECT_LT(error.worst_m, 3.0e-3);
 }
 
-TEST(AutoProcedure, DISABLED_CalibratesTheTableAsItPromises) {
+TEST(AutoProcedure, DISABLED_CalibratesTablesAtFullPictureSize) {
     double mean_m = 0.0;
     constexpr int tables = 3;
     for (std::uint64_t seed = 1; seed <= tables; ++seed) {
@@ -256,7 +256,7 @@ TEST(AutoProcedure, DISABLED_CalibratesTheTableAsItPromises) {
     EXPECT_LT(mean_m, 0.3e-3);
 }
 
-TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
+TEST(AutoProcedure, RepeatsADisturbedRest) {
     Live live({1, 16});
     live.begin();
     live.obey();
@@ -295,7 +295,7 @@ TEST(AutoProcedure, DoesAgainWhatWasDisturbed) {
     EXPECT_EQ(live.procedure.taken(), 1U);
 }
 
-TEST(AutoProcedure, LeavesOutACoveredTagAndWaitsForMoreThanTwo) {
+TEST(AutoProcedure, IgnoresCoveredTagsAndNeedsMoreThanTwoTags) {
     Live live({1, 1});
     live.begin();
     std::set<int> all;

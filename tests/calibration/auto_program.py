@@ -118,7 +118,7 @@ def by_scipy(rests, truth, pixel_noise):
     return m, Rotation.from_rotvec(v[18:21]) * near_turn, seen(m, t + turns.apply(m["offset"]), frame)[:, :2], t, turns
 
 
-def test_exact(programs):
+def test_exact_without_noise(programs):
     truth = Truth()
     found = calibrated(programs, rests_of(truth, 0.0))
     assert found["verdict"] == "good" and found["repeat"] == [], found
@@ -130,7 +130,7 @@ def test_exact(programs):
     assert found["residual_mm"]["worst"] < 0.02, found["residual_mm"]
 
 
-def test_scipy(programs):
+def test_matches_scipy(programs):
     truth = Truth()
     for seed in (4, 5):
         rests = rests_of(truth, 1.0, seed)
@@ -146,7 +146,7 @@ def test_scipy(programs):
         assert abs(found["projector"]["fx"] / m["f"][0] - 1) < 2e-4
 
 
-def test_wrong(programs):
+def test_wrong_data(programs):
     truth = Truth()
     rests = rests_of(truth, 1.0)
     rests[5].t = rests[5].t + [0.02, 0.01, 0.0]
@@ -199,7 +199,7 @@ def test_map(programs):
 
 def main():
     programs = pathlib.Path(sys.argv[1])
-    for test in (test_exact, test_scipy, test_wrong, test_command_line, test_map):
+    for test in (test_exact_without_noise, test_matches_scipy, test_wrong_data, test_command_line, test_map):
         test(programs)
         print(f"{test.__name__}: well")
 

@@ -23,7 +23,7 @@ AutoSetup setup_for(const simulators::SimulatedTable& table) {
     return setup;
 }
 
-TEST(Auto, WithoutNoiseTheTruthIsFound) {
+TEST(Auto, FindsTheTruthWithoutNoise) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         const simulators::SimulatedTable table = simulators::some_table(seed);
         simulators::SeededNumbers numbers(seed);
@@ -107,7 +107,7 @@ Figures figures_of(const simulators::RestPlan& plan, const simulators::TagCorner
 }
 
 // Noise of 0.3 mm and 0.15 degrees a rest; docs/calibration.md has the required limits.
-TEST(Auto, SixteenRestsLeaveAFifthOfAMillimetre) {
+TEST(Auto, ErrorOfSixteenRestsIsWithinItsLimits) {
     const Figures figures = figures_of({16, 4}, simulators::sheet_with_prop(), usual_noise, 20);
     EXPECT_LE(figures.mean_mm, 0.3);
     EXPECT_LE(figures.worst_p90_mm,
@@ -119,7 +119,7 @@ TEST(Auto, SixteenRestsLeaveAFifthOfAMillimetre) {
     EXPECT_LT(figures.uncertainty, 1.2);
 }
 
-TEST(Auto, DISABLED_OverAHundredTables) {
+TEST(Auto, DISABLED_ErrorsOverAHundredTables) {
     for (const int count : {6, 8, 12, 16, 20}) {
         figures_of({count, count / 4}, simulators::sheet_with_prop(), usual_noise, 100);
     }
@@ -304,15 +304,15 @@ void run_faults(std::uint64_t seeds) {
     }
 }
 
-TEST(AutoFaults, NoVerdictPromisesWhatDoesNotHold) {
+TEST(AutoFaults, VerdictsHoldForEachFault) {
     run_faults(3);
 }
 
-TEST(AutoFaults, DISABLED_NoneOfManySets) {
+TEST(AutoFaults, DISABLED_VerdictsHoldForFortySetsPerFault) {
     run_faults(40);
 }
 
-TEST(AutoFaults, WhatRestsLeaveOpenIsSaid) {
+TEST(AutoFaults, AsksForTheSensorHeightIfNoRestLeans) {
     const simulators::SimulatedTable table = simulators::some_table(3);
     simulators::SeededNumbers numbers(3);
     const Rests upright =
@@ -328,7 +328,7 @@ TEST(AutoFaults, WhatRestsLeaveOpenIsSaid) {
     EXPECT_LT(simulators::registration_error(table, *found.found.table, 0.12).mean_m, 5e-4);
 }
 
-TEST(AutoFaults, TheRestThatMovedIsNamed) {
+TEST(AutoFaults, NamesTheRestThatMoved) {
     const simulators::SimulatedTable table = simulators::some_table(5);
     simulators::SeededNumbers numbers(5);
     Rests rests =

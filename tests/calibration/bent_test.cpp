@@ -20,7 +20,7 @@ TEST(BentField, TheTrackerWithoutMetalReportsTheTruth) {
     }
 }
 
-TEST(BentField, NoVerdictPromisesWhatDoesNotHold) {
+TEST(BentField, VerdictsHoldInABentField) {
     ChosenCrosses crosses;
     int judged = 0;
     for (const double bend_m : {5e-3, 10e-3, 20e-3}) {

@@ -39,7 +39,7 @@ struct Print {
     }
 };
 
-TEST(Board, IsFoundOnItsSheetWhereItsListHasIt) {
+TEST(Board, DetectorFindsTagsAtTheirListedPlaces) {
     for (const geometry::FrustumSize& size : sizes) {
         const Result<Board> board = board_for(size);
         ASSERT_TRUE(board) << board.error().message;
@@ -67,7 +67,7 @@ TEST(Board, IsFoundOnItsSheetWhereItsListHasIt) {
     }
 }
 
-TEST(Board, HasNoTagUnderThePropOrOverThePaper) {
+TEST(Board, TagsLieOnTheSheetBesideTheProp) {
     for (const geometry::FrustumSize& size : sizes) {
         const Board board = *board_for(size);
         for (std::size_t k = 0; k + 1 < board.tags.size(); ++k) {
@@ -87,7 +87,7 @@ TEST(Board, HasNoTagUnderThePropOrOverThePaper) {
     }
 }
 
-TEST(Board, SaysWhichPropsHaveNone) {
+TEST(Board, RejectsPropsWithoutRoomForTags) {
     EXPECT_EQ(board_for({0.36, 0.08, 0.15}).error().message,
               "the prop's bottom is 360 mm wide, which leaves no room for tags on a sheet of A3; allowed are "
               "at most 339 mm");

@@ -22,7 +22,7 @@ Touches on_boards(const simulators::SimulatedTable& table, std::vector<Cross> cr
     return touches;
 }
 
-TEST(Boards, OfAnotherHeightAreMeasured) {
+TEST(Boards, MeasuresBoardsOfADifferentHeight) {
     ChosenCrosses crosses;
     /// The sum of the pictures' errors on twelve tables, with the same noise each time.
     const auto picture_errors_mm = [&](double off_mm) {
@@ -49,7 +49,7 @@ TEST(Boards, OfAnotherHeightAreMeasured) {
     }
 }
 
-TEST(Boards, AreToldOnlyWhereTheyDiffer) {
+TEST(Boards, ReportsTheHeightOnlyIfItDiffers) {
     ChosenCrosses crosses;
     int told_of_right = 0;
     int told_of_wrong = 0;
@@ -68,7 +68,7 @@ TEST(Boards, AreToldOnlyWhereTheyDiffer) {
     EXPECT_GE(told_of_wrong, 19);
 }
 
-TEST(Boards, WithoutAnyNothingIsSaidOfThem) {
+TEST(Boards, ReportsNoHeightWithoutBoards) {
     ChosenCrosses crosses;
     const simulators::SimulatedTable table = simulators::some_table(3);
     simulators::SeededNumbers numbers(3);

@@ -157,7 +157,7 @@ def by_scipy(rows, truth):
     return m, seen(m, t + arm, frame)[:, :2], t, rotation, frame
 
 
-def test_exact(programs):
+def test_exact_without_noise(programs):
     truth = Truth()
     rows = touches(truth, 0.0)
     found = calibrated(programs, rows, "--sensor-height", str(SENSOR_HEIGHT))
@@ -171,7 +171,7 @@ def test_exact(programs):
     assert np.abs(np.array(found["sensor_offset_m"]) - truth.offset).max() < 1e-3
 
 
-def test_scipy(programs):
+def test_matches_scipy(programs):
     truth = Truth()
     for seed in (4, 5, 6):
         rows = touches(truth, 1.0, seed)
@@ -277,7 +277,7 @@ def test_corners_are_kept(programs):
 
 def main():
     programs = pathlib.Path(sys.argv[1])
-    for test in (test_exact, test_scipy, test_refused, test_command_line, test_corners, test_corners_are_kept):
+    for test in (test_exact_without_noise, test_matches_scipy, test_refused, test_command_line, test_corners, test_corners_are_kept):
         test(programs)
         print(f"{test.__name__}: well")
 

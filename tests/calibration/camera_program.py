@@ -51,7 +51,7 @@ class Camera(unittest.TestCase):
         self.config.write_text(text.replace("{repeat_s}", str(repeat_s)))
         return subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False)
 
-    def test_no_camera_is_found(self):
+    def test_reports_a_missing_camera(self):
         done = self.run_program("auto", "--config", self.config, "--headless")
         self.assertEqual(done.returncode, 1)
         self.assertIn("You need the prop on its printed board (3 mm thick)", done.stderr)
@@ -67,7 +67,7 @@ class Camera(unittest.TestCase):
             self.assertGreaterEqual(found, 0, f"'{sentence}' is not said, or not then: {done.stderr}")
             at = found + len(sentence)
 
-    def test_the_buttons_offer_the_camera_and_lead_on_to_the_crosses(self):
+    def test_buttons_offer_the_camera_then_the_crosses(self):
         table = ("table", "--config", self.config, "--headless")
         done = self.run_program(*table, **ALWAYS_BACK)
         self.assertEqual(done.returncode, 1)
@@ -85,7 +85,7 @@ class Camera(unittest.TestCase):
                                  "Staff: measure the whole table", "Nothing was changed.")
         self.assertFalse((self.folder / "kept").exists())
 
-    def test_after_the_touch_up_comes_the_camera(self):
+    def test_back_from_the_touch_up_offers_the_camera(self):
         (self.folder / "kept").mkdir()
         (self.folder / "kept/calibration-0001.toml").write_text(TrueTable(640, 0.4).calibration(0.085))
         done = self.run_program("table", "--config", self.config, "--headless", **ALWAYS_BACK)
@@ -93,21 +93,21 @@ class Camera(unittest.TestCase):
         self.assert_said_in_turn(done, "Staff: put the picture right", "Staff: measure the table with the camera",
                                  "Staff: measure the whole table", "Nothing was changed.")
 
-    def test_without_a_camera_or_its_board_the_crosses_come_first(self):
+    def test_offers_crosses_first_without_camera_or_board(self):
         for camera, base, said in (("none", 0.30, ""), ("v4l2", 0.36, "leaves no room for tags on a sheet of A3")):
             done = self.run_program("table", "--config", self.config, "--headless", camera=camera, base=base, **ALWAYS_BACK)
             self.assertEqual(done.returncode, 1)
             self.assert_said_in_turn(done, said, "Staff: measure the whole table", "Nothing was changed.")
             self.assertNotIn("with the camera", done.stderr)
 
-    def test_wrong_use(self):
+    def test_rejects_wrong_use(self):
         none = self.run_program("auto", "--config", self.config, camera="none")
         self.assertEqual(none.returncode, 1)
         self.assertIn('the settings have no camera; set camera.kind = "v4l2"', none.stderr)
         for words in (["auto"], ["auto", "--config", self.config, "--json"], ["auto", "--config", self.config, "--from", "a", "--rests", "8"]):
             self.assertEqual(self.run_program(*words).returncode, 2, words)
 
-    def test_sheet(self):
+    def test_writes_the_board_sheet(self):
         sheet = self.folder / "board.svg"
         for base in (0.30, 0.16):
             done = self.run_program("sheet", "--config", self.config, "-o", sheet, base=base)

@@ -84,7 +84,7 @@ Rest captured(const simulators::SimulatedTable& table, const simulators::PlacedR
     return rest;
 }
 
-TEST(Captures, TellTheProjectorsPixel) {
+TEST(Captures, DecodeTheProjectorPixels) {
     const simulators::SimulatedTable table = simulators::some_table(1);
     simulators::SeededNumbers numbers(1);
     DecodeErrors errors;
@@ -95,7 +95,7 @@ TEST(Captures, TellTheProjectorsPixel) {
     EXPECT_LT(errors.corner_px(), 0.3);
 }
 
-TEST(Captures, DISABLED_UnderEachFault) {
+TEST(Captures, DISABLED_PrintDecodingErrorsUnderEachFault) {
     const simulators::SimulatedTable table = simulators::some_table(1);
     const std::vector<std::pair<const char*, simulators::CaptureFaults>> all{
         {"as usual", {}},

@@ -163,12 +163,12 @@ Named named(std::uint64_t tables, Fault fault, double size_m) {
     return count;
 }
 
-TEST(Causes, RightTouchesAreNotDisturbed) {
+TEST(Causes, CorrectTouchesReportNeitherMoveNorMetal) {
     const Named count = named(60, Fault::None, 0.0);
     EXPECT_LE(count.moved + count.metal, 2);
 }
 
-TEST(Causes, AMoveIsNamedWithItsTouch) {
+TEST(Causes, ReportsAMoveWithItsTouch) {
     for (const Fault fault : {Fault::Source, Fault::Projector}) {
         const Named count = named(6, fault, 6e-3);
         EXPECT_GE(count.moved + 1, count.tables);
@@ -176,13 +176,13 @@ TEST(Causes, AMoveIsNamedWithItsTouch) {
     }
 }
 
-TEST(Causes, MetalIsNamed) {
+TEST(Causes, ReportsMetal) {
     const Named count = named(6, Fault::Metal, 8e-3);
     EXPECT_GE(count.metal + 1, count.tables);
     EXPECT_EQ(count.moved, 0);
 }
 
-TEST(Causes, OneWrongTouchIsNeither) {
+TEST(Causes, OneWrongTouchIsNeitherMoveNorMetal) {
     const Named count = named(20, Fault::OneTouch, 5e-3);
     EXPECT_LE(count.moved + count.metal, 3);
 }
@@ -206,7 +206,7 @@ TEST(Causes, DISABLED_TheFigures) {
 }
 
 /// To first order the simulator's tracker, which computes with the whole field, reports the same.
-TEST(Causes, TheBendIsThatOfATracker) {
+TEST(Causes, BendMatchesTheSimulatedTrackerToFirstOrder) {
     simulators::SeededNumbers numbers(5);
     for (int k = 0; k < 50; ++k) {
         const glm::dvec3 metal(0.4 + 0.1 * numbers.normal(), 0.1 * numbers.normal(), -0.2);

@@ -11,7 +11,7 @@
 namespace frustumscreen::calibration {
 namespace {
 
-TEST(Corners, WithoutErrorTheProjectorIsFound) {
+TEST(Corners, FindsTheProjectorWithoutError) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         simulators::SimulatedTable table = simulators::some_table(seed);
         table.truth.pinhole.lens = {};
@@ -29,7 +29,7 @@ TEST(Corners, WithoutErrorTheProjectorIsFound) {
     }
 }
 
-TEST(Corners, WhatSaysNothingIsRefused) {
+TEST(Corners, RefusesDegenerateAndMirroredCorners) {
     const simulators::SimulatedTable table = simulators::some_table(3);
     simulators::SeededNumbers numbers(3);
     const geometry::Pinhole& p = table.truth.pinhole;
@@ -45,7 +45,7 @@ TEST(Corners, WhatSaysNothingIsRefused) {
 }
 
 // The tracker's registration is the truth here. Even so, the picture by hand is many times worse.
-TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
+TEST(Corners, ErrorIsAtLeastFiveTimesThatOfTouches) {
     ChosenCrosses crosses;
     double by_hand = 0.0;
     double by_touch = 0.0;
@@ -79,7 +79,7 @@ TEST(Corners, ByHandThePictureIsFiveTimesWorseThanByTouch) {
 
 /// The reported uncertainty is the ruler's effect on the picture, for a lens without distortion; a lens that
 /// distorts is worse.
-TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
+TEST(Corners, UncertaintyMatchesTheRulersEffect) {
     double said = 0.0;
     double made = 0.0;
     double distorted = 0.0;
@@ -129,7 +129,7 @@ TEST(Corners, TheirUncertaintyIsTheErrorThatTheRulerMakes) {
     EXPECT_LE(refused, 17);
 }
 
-TEST(Corners, ARulerThatSeemsExactIsHeldForAMillimetre) {
+TEST(Corners, AssumesTheMinimumRulerErrorForExactCorners) {
     simulators::SimulatedTable table = simulators::some_table(2);
     table.truth.pinhole.lens = {};
     simulators::SeededNumbers numbers(2);

@@ -72,7 +72,7 @@ glm::dvec3 line_of(const ReportedSight& sight) {
     return glm::normalize(sight.tip_m - cross);
 }
 
-TEST(EyePicture, EverythingThatIsSaidHasItsWord) {
+TEST(EyePicture, EveryMessageKeyHasASentence) {
     std::set<std::string> said;
     const auto listen = [&](const EyeProcedure& procedure) {
         said.insert(std::string(programs::table_words(procedure).key));
@@ -137,7 +137,7 @@ bool is_of_cross(const EyeProcedure& procedure, const glm::dvec2& pixel, double 
     return std::fmax(from.x, from.y) < 0.03 * px_per_m && std::fmin(from.x, from.y) < thick;
 }
 
-TEST(EyePicture, NothingCrossesTheWordsWhereverThePropStands) {
+TEST(EyePicture, WordsOverlapNeitherCrossNorProp) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     constexpr int width = 960, height = 600;

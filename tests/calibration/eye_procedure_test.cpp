@@ -41,7 +41,7 @@ Outcome outcome_of(const char* name, int people, const Manner& manner) {
     return outcome;
 }
 
-TEST(EyeProcedure, ThePosturesThatAreAskedForTellWhereTheEyesAre) {
+TEST(EyeProcedure, RequestedPosturesDetermineTheEyes) {
     const Outcome usual = outcome_of("as asked", 40, {});
     EXPECT_GE(usual.kept, 38);
     EXPECT_LT(usual.off_mm, 8.0);
@@ -56,7 +56,7 @@ TEST(EyeProcedure, ThePosturesThatAreAskedForTellWhereTheEyesAre) {
     EXPECT_LT(outcome_of("farther", 40, more).off_mm, usual.off_mm);
 }
 
-TEST(EyeProcedure, APropThatIsTurnedInItsSensorOtherwiseThanKeptIsNoticedAtTenDegrees) {
+TEST(EyeProcedure, AcceptsNoEyesIfThePropIsTurnedTenDegrees) {
     Manner manner; // touches leave that rotation open; the dot of light reveals less
     manner.kept_turn_rad = glm::radians(4.0);
     EXPECT_LT(outcome_of("prop turned by 4 degrees", 40, manner).off_mm, 15.0);
@@ -64,7 +64,7 @@ TEST(EyeProcedure, APropThatIsTurnedInItsSensorOtherwiseThanKeptIsNoticedAtTenDe
     EXPECT_EQ(outcome_of("prop turned by 10 degrees", 40, manner).kept, 0);
 }
 
-TEST(EyeProcedure, EachCrossIsLitAndSeenAndAimedAtWithoutAStep) {
+TEST(EyeProcedure, EachCrossIsLitVisibleAndWithinReach) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         Live live(seed);
         live.begin();
@@ -101,7 +101,7 @@ TEST(EyeProcedure, EachCrossIsLitAndSeenAndAimedAtWithoutAStep) {
     }
 }
 
-TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
+TEST(EyeProcedure, MeasuresTheEyesFromBeginToDone) {
     Live live(7);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
     EXPECT_EQ(live.procedure.count(), 12U);
@@ -125,7 +125,7 @@ TEST(EyeProcedure, FromTheFirstWordToAnEyeThatIsKept) {
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Done);
 }
 
-TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
+TEST(EyeProcedure, KeepsSightingsIfThePropIsPushed) {
     Live live(3);
     live.begin();
     for (int k = 0; k < 4; ++k) {
@@ -155,7 +155,7 @@ TEST(EyeProcedure, APropThatIsPushedIsTakenAnewAndNothingIsLost) {
     EXPECT_TRUE(may_be_kept(live.procedure.judged()->verdict)) << live.procedure.judged()->reason.sentence;
 }
 
-TEST(EyeProcedure, AWrongAimComesAgainByItself) {
+TEST(EyeProcedure, RepeatsAWrongSighting) {
     Live live(5);
     live.begin();
     for (int k = 0; k < 8; ++k) {
@@ -181,7 +181,7 @@ TEST(EyeProcedure, AWrongAimComesAgainByItself) {
               std::max_element(off.begin(), off.end()) - off.begin());
 }
 
-TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
+TEST(EyeProcedure, RefusesSightingsFromSimilarHeadPostures) {
     Manner alike;
     alike.turn = alike.nod = alike.spread = 0.0;
     Live stiff(6, alike);
@@ -207,7 +207,7 @@ TEST(EyeProcedure, AHeadThatIsAlwaysHeldAlikeIsToldAndRefused) {
     EXPECT_TRUE(live.procedure.sights().empty());
 }
 
-TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
+TEST(EyeProcedure, ReportsAPropOrHeadThatIsNotTracked) {
     Live nobody(8);
     nobody.sees_prop = false;
     nobody.begin();
@@ -244,7 +244,7 @@ TEST(EyeProcedure, WhatTheTrackerDoesNotSeeIsSaid) {
     EXPECT_EQ(live.procedure.at(), 2U);
 }
 
-TEST(EyeProcedure, AHeadThatMovesBeginsItsSecondAnew) {
+TEST(EyeProcedure, RestartsTheHoldIfTheHeadMoves) {
     Live live(9);
     live.begin();
     live.next(); // the right eye is shut
@@ -261,7 +261,7 @@ TEST(EyeProcedure, AHeadThatMovesBeginsItsSecondAnew) {
     EXPECT_EQ(live.procedure.at(), 1U);
 }
 
-TEST(EyeProcedure, BackDoesTheSightingBeforeAgainAndLeavesAtTheBeginning) {
+TEST(EyeProcedure, BackRepeatsTheLastSightingAndLeavesAtTheBeginning) {
     Live live(10);
     live.begin();
     live.back();
@@ -283,7 +283,7 @@ TEST(EyeProcedure, BackDoesTheSightingBeforeAgainAndLeavesAtTheBeginning) {
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Left);
 }
 
-TEST(EyeProcedure, WhoDoesNothingLeaves) {
+TEST(EyeProcedure, TimesOutWithoutPresses) {
     Live live(11);
     live.wait(59.0);
     EXPECT_EQ(live.procedure.stage(), CalibrationStage::Begin);
@@ -296,7 +296,7 @@ TEST(EyeProcedure, WhoDoesNothingLeaves) {
     EXPECT_EQ(later.procedure.stage(), CalibrationStage::Left);
 }
 
-TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
+TEST(EyeProcedure, ReportsAnUnsuitablePlaceOrSetUp) {
     Live live(12);
     live.world.table_from_prop.translation.z = 0.03;
     live.begin();
@@ -318,7 +318,7 @@ TEST(EyeProcedure, APlaceThatDoesNotDoIsSaid) {
               std::string::npos);
 }
 
-TEST(EyeProcedure, SightingsThatAreTooFewBringMore) {
+TEST(EyeProcedure, AsksForMoreSightingsIfTooFew) {
     Live live(13);
     live.begin();
     live.sight_all();

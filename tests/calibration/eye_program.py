@@ -107,7 +107,7 @@ class Program:
         return done
 
 
-def test_scipy(program, table):
+def test_matches_scipy(program, table):
     for seed, noise in ((1, 0.0), (2, 3e-3), (3, 3e-3)):
         names, rows = sightings(table, np.random.default_rng(seed), noise)
         found = json.loads(program(names, rows, "--json").stdout)
@@ -121,7 +121,7 @@ def test_scipy(program, table):
         assert off < (1e-6 if noise == 0.0 else 0.02), off
 
 
-def test_wrong(program, table):
+def test_wrong_data(program, table):
     names, rows = sightings(table, np.random.default_rng(4), 2e-3)
     slipped = rows.copy()
     slipped[3, 7] += 80.0  # another cross
@@ -150,7 +150,7 @@ def kept_form(settings):
                                       ("table_from_tracker", "sensor_from_prop", "eye_in_sensor_m")))
 
 
-def test_kept(program, table):
+def test_keep_and_undo(program, table):
     """After --keep the exhibit's settings have the eye, and nothing else changes; --undo reverts it."""
     before = program.settings()
     folder = program.config.parent / "calibration"
@@ -175,7 +175,7 @@ def main():
         config.write_text(text + f'\n[calibration]\nfolder = "{folder}/calibration"\n')
         program = Program(programs, config)
         table = Table(program.settings())
-        for test in (test_scipy, test_wrong, test_kept):
+        for test in (test_matches_scipy, test_wrong_data, test_keep_and_undo):
             test(program, table)
             print(f"{test.__name__}: well")
 

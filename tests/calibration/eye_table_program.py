@@ -114,7 +114,7 @@ class Eyes(unittest.TestCase):
         self.record(at + 8.0, prop, self.at_first())
         return presses
 
-    def test_from_the_first_word_to_the_kept_eye(self):
+    def test_measures_and_keeps_the_eyes(self):
         self.write([])
         self.record(0.1, self.truth.report((0, 0, 0), 0, SENSOR_M), self.at_first())
         self.rows = self.rows[:1]
@@ -144,7 +144,7 @@ class Eyes(unittest.TestCase):
         again = json.loads(self.eye("--from", sights, "--json").stdout)
         self.assertLess(math.dist(again["eye_in_sensor_m"], after["tracker"]["eye_in_sensor_m"]), 1e-9)
 
-    def test_what_is_missing_is_said(self):
+    def test_reports_missing_calibration_and_tracker(self):
         self.record(0.1, self.truth.report((0, 0, 0), 0, SENSOR_M), self.at_first())
         self.write([(0.2, NEXT), (1.0, BACK)])
         none = self.eye("--headless")
@@ -162,7 +162,7 @@ class Eyes(unittest.TestCase):
         self.assertEqual(failed.returncode, 1)
         self.assertIn("needs a tracker and two buttons", failed.stderr)
 
-    def test_wrong_use(self):
+    def test_rejects_wrong_use(self):
         self.write([])
         for words in (["eye"], ["eye", "--config", self.config, "--keep"], ["eye", "--config", self.config, "--from", "a", "--out", "b"],
                       ["eye", "--config", self.config, "--from", "a", "--headless"]):

@@ -37,7 +37,7 @@ double off_on_picture_m(const EyeFit& fit, const SimulatedPerson& person, const 
     return std::sqrt(sum);
 }
 
-TEST(Eyes, WithoutNoiseTheTruthIsFound) {
+TEST(Eyes, FindsTheTruthWithoutNoise) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const SimulatedPerson person = some_person(seed);
         simulators::SeededNumbers numbers(seed);
@@ -86,7 +86,7 @@ Coverage coverage_at(double noise) {
     return coverage;
 }
 
-TEST(Eyes, TheErrorsAreAsLargeAsTheCovarianceSays) {
+TEST(Eyes, ErrorsMatchTheCovariance) {
     const Coverage usual = coverage_at(1.0);
     EXPECT_GT(usual.mahalanobis2, 2.0);
     EXPECT_LT(usual.mahalanobis2, 3.6);
@@ -100,7 +100,7 @@ TEST(Eyes, TheErrorsAreAsLargeAsTheCovarianceSays) {
     EXPECT_LT(more.mahalanobis2, 4.5) << "the scatter tells of more noise";
 }
 
-TEST(Eyes, AWrongSightingIsNamed) {
+TEST(Eyes, NamesTheWrongSighting) {
     int named = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const SimulatedPerson person = some_person(seed);
@@ -116,7 +116,7 @@ TEST(Eyes, AWrongSightingIsNamed) {
     EXPECT_GE(named, 34);
 }
 
-TEST(Eyes, WhatTellsNothingIsRefusedWithTheReason) {
+TEST(Eyes, RefusesDegenerateSightingsWithAReason) {
     const SimulatedPerson person = some_person(3);
     simulators::SeededNumbers numbers(3);
     const EyeSights well = some_sights(person, count, {}, {}, numbers);
@@ -186,7 +186,7 @@ void spoil(EyeSights& sights, const SimulatedPerson& person, int kind, simulator
     }
 }
 
-TEST(Eyes, NoneOfTwoHundredSetsWithFaultsIsBelievedWrongly) {
+TEST(Eyes, VerdictsHoldForTwoHundredFaultySets) {
     int believed = 0;
     int wrong = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {

@@ -177,7 +177,7 @@ void run_faults(std::uint64_t seeds) {
     }
 }
 
-TEST(Faults, NoVerdictPromisesWhatDoesNotHold) {
+TEST(Faults, VerdictsHoldForEachFault) {
     run_faults(4);
 }
 

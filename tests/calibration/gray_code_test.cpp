@@ -80,7 +80,7 @@ TEST(GrayCode, EachStripeHasItsOwnCode) {
     EXPECT_EQ(std::adjacent_find(codes.begin(), codes.end()), codes.end());
 }
 
-TEST(GrayCode, AnInverseIsOne) {
+TEST(GrayCode, InversePatternsComplementTheirBits) {
     const StripeSetup setup{640, 400};
     const std::vector<Pattern> patterns = patterns_of(setup);
     int bits = 0;
@@ -93,7 +93,7 @@ TEST(GrayCode, AnInverseIsOne) {
     EXPECT_GE(bits, 10); // 640 columns
 }
 
-TEST(GrayCode, WhatIsShownIsRead) {
+TEST(GrayCode, DecodesTheShownPatterns) {
     for (const StripeSetup& setup :
          {StripeSetup{320, 200}, StripeSetup{333, 97, 10, 5}, StripeSetup{64, 48, 32, 3}}) {
         const auto dimmed = changed(shown(setup), [](double light) { return 200.0 * light + 20.0; });
@@ -103,7 +103,7 @@ TEST(GrayCode, WhatIsShownIsRead) {
     }
 }
 
-TEST(GrayCode, GammaDoesNotBendIt) {
+TEST(GrayCode, ToleratesGamma) {
     const StripeSetup setup{320, 200};
     for (const double gamma : {0.45, 2.2}) {
         const auto bent =
@@ -114,7 +114,7 @@ TEST(GrayCode, GammaDoesNotBendIt) {
     }
 }
 
-TEST(GrayCode, UnlitAndClippedPlacesAreNotKnown) {
+TEST(GrayCode, UnlitAndClippedPixelsAreUnknown) {
     const StripeSetup setup{64, 48};
     const auto dark = changed(shown(setup), [](double light) { return 8.0 * light + 90.0; });
     EXPECT_EQ(error_and_share(setup, decode(setup, as_captures(setup, dark))).second, 0.0);
@@ -122,7 +122,7 @@ TEST(GrayCode, UnlitAndClippedPlacesAreNotKnown) {
     EXPECT_EQ(error_and_share(setup, decode(setup, as_captures(setup, bright))).second, 0.0);
 }
 
-TEST(GrayCode, OfNoiseNothingIsKnown) {
+TEST(GrayCode, NoiseLeavesPixelsUnknown) {
     const StripeSetup setup{64, 48};
     simulators::SeededNumbers numbers(1);
     const auto noise =

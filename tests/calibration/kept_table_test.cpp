@@ -45,7 +45,7 @@ TEST(KeptTable, LiesInTheFrameOfTheSettings) {
 }
 
 /// Sensors that are tilted, and one that hangs upside down; two props of eight lie on a side.
-TEST(KeptTable, KnowsWhereThePropIsInItsSensor) {
+TEST(KeptTable, FindsThePropsPoseInItsSensor) {
     simulators::SeededNumbers numbers(9);
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         simulators::SimulatedTable table = simulators::some_table(seed);

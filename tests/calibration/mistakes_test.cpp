@@ -25,7 +25,7 @@ void rotate_poses(Touches& touches, std::size_t by) {
     }
 }
 
-TEST(Mistakes, AreNamedByWhatTheyAre) {
+TEST(Mistakes, RefusalNamesTheMistake) {
     const std::vector<Spoilt> all{
         {"a mirrored picture",
          [](Touches& touches, const simulators::SimulatedTable& table) {

@@ -14,7 +14,7 @@ std::string touch_error(const std::string& rows) {
     return read ? "" : test::told(read.error());
 }
 
-TEST(PointFiles, ATouchIsReadAsItStands) {
+TEST(PointFiles, ParsesATouch) {
     const auto read = parse_touches(std::string("# by hand\n") + touch_header +
                                         "0.1,-0.2,0.3,0.5,-0.5,0.5,-0.5,100.5,200,0.04\n",
                                     "t.csv");
@@ -27,7 +27,7 @@ TEST(PointFiles, ATouchIsReadAsItStands) {
     EXPECT_EQ(touch.block_m, 0.04);
 }
 
-TEST(PointFiles, TouchesAreReadAsTheyWereWritten) {
+TEST(PointFiles, TouchesRoundTrip) {
     const Touches touches{{{glm::dquat(0.5, -0.5, 0.5, -0.5), {0.1, -0.2, 1.0 / 3.0}}, {100.5, 200.0}, 0.04},
                           {{glm::dquat(1.0, 0.0, 0.0, 0.0), {1e-9, 0.0, -7.0}}, {0.5, 799.5}, 0.0}};
     const auto read = parse_touches(touches_text(touches), "t.csv");
@@ -41,7 +41,7 @@ TEST(PointFiles, TouchesAreReadAsTheyWereWritten) {
     }
 }
 
-TEST(PointFiles, WhatIsWrongIsSaidWithItsLine) {
+TEST(PointFiles, ReportsErrorsInTouchesWithTheirLine) {
     EXPECT_NE(touch_error("1,2,3\n").find("t.csv:2: the row has 3 fields"), std::string::npos);
     EXPECT_NE(touch_error("0,0,0,1,0,0,x,1,2,0\n").find("t.csv:2: qz is"), std::string::npos);
     EXPECT_NE(touch_error("0,0,0,1,0,0,nan,1,2,0\n").find("qz is"), std::string::npos);
@@ -49,7 +49,7 @@ TEST(PointFiles, WhatIsWrongIsSaidWithItsLine) {
     EXPECT_FALSE(parse_touches("", "t.csv"));
 }
 
-TEST(PointFiles, EachReportIsARotation) {
+TEST(PointFiles, RejectsQuaternionsThatAreNoRotation) {
     const auto touch_of = [](const std::string& turn) { return touch_error("0,0,0," + turn + ",1,2,0\n"); };
     EXPECT_NE(touch_of("0,0,0,0").find("t.csv:2: qw,qx,qy,qz are not a rotation"), std::string::npos);
     EXPECT_NE(touch_of("90,0,0,0").find("90; are these angles in degrees?"), std::string::npos);
@@ -64,7 +64,7 @@ TEST(PointFiles, EachReportIsARotation) {
     EXPECT_NE(rest.error().message.find("r.csv:2: qw,qx,qy,qz are not a rotation"), std::string::npos);
 }
 
-TEST(PointFiles, SightsAreReadAsTheyWereWritten) {
+TEST(PointFiles, SightsRoundTrip) {
     const ReportedSights sights{
         {OpenEye::Left, {{0.6, 0.0, 0.8, 0.0}, {0.1, -0.2, 1.0 / 3.0}}, {100.25, 2e-7}, {0.04, 0.05, 0.155}},
         {OpenEye::Right, {{1.0, 0.0, 0.0, 0.0}, {1e-9, 0.0, -7.0}}, {5.0, 6.0}, {0.0, 0.0, 0.12}}};
@@ -76,7 +76,7 @@ TEST(PointFiles, SightsAreReadAsTheyWereWritten) {
     EXPECT_EQ((*read)[0].tip_m, sights[0].tip_m);
 }
 
-TEST(PointFiles, CornersHaveNames) {
+TEST(PointFiles, ParsesCornerNames) {
     const auto read = parse_corners(std::string(corner_header) + "2,bottom_left,0.1,0.2,0\n", "c.csv");
     ASSERT_TRUE(read);
     EXPECT_EQ((*read)[0].corner, PictureCorner::BottomLeft);
@@ -92,7 +92,7 @@ std::string rest_error(const std::string& rows) {
     return read ? "" : test::told(read.error());
 }
 
-TEST(PointFiles, RowsOfOneNumberAreOneRest) {
+TEST(PointFiles, GroupsRowsByRestNumber) {
     const auto read =
         parse_rests(std::string(rest_header) + "7,0.1,0.2,0.3,1,0,0,0,0.01,0.02,0,100,200.5,0.04\n"
                                                "9,0.5,0.2,0.3,1,0,0,0,0.01,0.02,0,300,200.5,\n"
@@ -111,7 +111,7 @@ TEST(PointFiles, RowsOfOneNumberAreOneRest) {
     EXPECT_FALSE((*read)[1].block_m);
 }
 
-TEST(PointFiles, RestsAreReadAsTheyWereWritten) {
+TEST(PointFiles, RestsRoundTrip) {
     const Rests rests{{3,
                        {{0.6, 0.0, 0.8, 0.0}, {0.1, -0.2, 1.0 / 3.0}},
                        {{{0.01, 0.02, 0.0}, {100.25, 2e-7}}, {{0.0, 0.0, 0.155}, {1.0, 2.0}}},
@@ -126,7 +126,7 @@ TEST(PointFiles, RestsAreReadAsTheyWereWritten) {
     EXPECT_FALSE((*read)[1].block_m);
 }
 
-TEST(PointFiles, WhatIsWrongWithARestIsSaidWithItsLine) {
+TEST(PointFiles, ReportsErrorsInRestsWithTheirLine) {
     const std::string good = "1,0,0,0,1,0,0,0,0,0,0,1,2,0\n";
     EXPECT_EQ(rest_error(good), "");
     EXPECT_NE(rest_error("x,0,0,0,1,0,0,0,0,0,0,1,2,0\n").find("r.csv:2: rest is"), std::string::npos);

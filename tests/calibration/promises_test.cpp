@@ -183,7 +183,7 @@ Kept ruled(std::uint64_t tables, bool distorts) {
     return kept;
 }
 
-TEST(Promises, OfTouchesOnTheShippedTableHold) {
+TEST(Promises, HoldForTouchesOnTheShippedTable) {
     const Kept kept = touched(60, shipped_crosses(shipped_touches));
     kept.print("touches");
     expect_kept(kept);
@@ -192,26 +192,26 @@ TEST(Promises, OfTouchesOnTheShippedTableHold) {
     EXPECT_GE(kept.good + kept.usable, 60 - 17);
 }
 
-TEST(Promises, OfRestsHold) {
+TEST(Promises, HoldForRests) {
     const Kept kept = rested(12);
     kept.print("rests");
     expect_kept(kept);
 }
 
-TEST(Promises, OfCornersHold) {
+TEST(Promises, HoldForCorners) {
     const Kept kept = ruled(200, false);
     kept.print("corners");
     expect_kept(kept);
 }
 
-TEST(Promises, DISABLED_TheFiguresOfTouches) {
+TEST(Promises, DISABLED_HoldForTouchesOnAThousandTables) {
     const Kept kept = touched(1000, shipped_crosses(shipped_touches));
     kept.print("the shipped crosses");
     expect_kept(kept);
 }
 
 /// Other numbers of crosses, and crosses for a prop that may hang over the table's edge.
-TEST(Promises, DISABLED_TheFiguresOfOtherCrosses) {
+TEST(Promises, DISABLED_PrintFiguresOfOtherCrosses) {
     touched(100, shipped_crosses(shipped_touches)).print("the shipped crosses");
     touched(100, crosses_all_over(9)).print("9 crosses all over the picture");
     touched(100, shipped_crosses(9)).print("9 on which the prop stands");
@@ -220,13 +220,13 @@ TEST(Promises, DISABLED_TheFiguresOfOtherCrosses) {
     touched(100, crosses_all_over(15)).print("15 crosses all over the picture");
 }
 
-TEST(Promises, DISABLED_TheFiguresOfRests) {
+TEST(Promises, DISABLED_HoldForRestsOnAThousandTables) {
     const Kept kept = rested(1000);
     kept.print("rests");
     expect_kept(kept);
 }
 
-TEST(Promises, DISABLED_TheFiguresOfCorners) {
+TEST(Promises, DISABLED_HoldForCornersOnAThousandTables) {
     const Kept kept = ruled(1000, false);
     kept.print("corners");
     expect_kept(kept);
@@ -274,19 +274,19 @@ Slips slips_of(int sets) {
 }
 
 /// 95 of 100 are expected; of 40 sets, fewer than 34 have a probability of 0.001.
-TEST(Promises, ASlipOfThreeMillimetresIsSeen) {
+TEST(Promises, ASlipOfThreeMillimetresIsDetected) {
     const Slips slips = slips_of(40);
     EXPECT_GE(slips.named + slips.worse, 34);
 }
 
-TEST(Promises, DISABLED_TheFiguresOfSlips) {
+TEST(Promises, DISABLED_SlipsAreDetectedOnFourHundredTables) {
     const Slips slips = slips_of(400);
     EXPECT_GE(100 * (slips.named + slips.worse), 95 * slips.sets);
 }
 
 /// A bumped projector is corrected by crosses on which the prop stands: seven, and two more if those do not
 /// check each other.
-TEST(Promises, ATouchUpOnTheShippedTablePutsThePictureRight) {
+TEST(Promises, ATouchUpCorrectsThePictureOnTheShippedTable) {
     int kept = 0;
     int kept_with_more = 0;
     double sum_mm = 0.0;
@@ -341,7 +341,7 @@ TEST(Promises, ThePropStandsOnTheShippedTableAtEachCross) {
 }
 
 /// A table without room for the prop still has crosses, and the overhang is reported.
-TEST(Promises, ATableTooSmallForThePropIsToldByItsOverhang) {
+TEST(Promises, ReportsTheOverhangOnATooSmallTable) {
     CrossSetup setup = shipped_cross_setup(9);
     setup.reach_m = reach_of({0.8, 0.28}, shipped_base_m);
     const std::vector<Cross> crosses = choose_crosses(shipped_model(), setup);
@@ -390,7 +390,7 @@ TEST(Promises, MoreCrossesLeadToAVerdictThatCanBeKept) {
     expect_a_verdict_that_can_be_kept(12);
 }
 
-TEST(Promises, DISABLED_TheFiguresOfMoreCrosses) {
+TEST(Promises, DISABLED_MoreCrossesLeadToAVerdictOnFortyTables) {
     expect_a_verdict_that_can_be_kept(40);
 }
 

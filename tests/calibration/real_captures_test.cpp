@@ -230,7 +230,7 @@ void render_captures(const StripeSetup& stripes, const std::filesystem::path& fo
     }
 }
 
-TEST(RealCaptures, OfARenderedSheetAllButABoxLiesOnItRoundedToWholePixels) {
+TEST(RealCaptures, RenderedSheetDecodesToWholePixelsExceptTheBox) {
     const StripeSetup stripes = stripes_of(128, 96);
     const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "rendered_captures";
     render_captures(stripes, folder, 200, 160);
@@ -244,7 +244,7 @@ TEST(RealCaptures, OfARenderedSheetAllButABoxLiesOnItRoundedToWholePixels) {
 }
 
 /// The area of each chess board within its outermost inner corners, read by eye from graycode_40.png.
-TEST(RealCaptures, DISABLED_TheFiguresOfProcamCalibration) {
+TEST(RealCaptures, DISABLED_ProcamCalibrationCapturesDecode) {
     const char* const folder = std::getenv("FRUSTUMSCREEN_CAPTURES");
     if (folder == nullptr) {
         GTEST_SKIP() << "FRUSTUMSCREEN_CAPTURES does not name the folder with capture_0 to capture_4";

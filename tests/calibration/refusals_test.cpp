@@ -41,7 +41,7 @@ void expect_refused(const TouchCalibration& found, const std::string& word) {
 
 /// One right touch in a hundred must be repeated. Among five grids, fewer than two kept ones have a probability
 /// of 0.001.
-TEST(Refusals, AGridIsNone) {
+TEST(Refusals, AcceptsAGrid) {
     int kept = 0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const TouchCalibration found = calibrated(seed, grid(simulators::some_table(seed), 0.9, 0.9));
@@ -81,7 +81,7 @@ TEST(Refusals, EachDegenerateSetHasItsReason) {
     }
 }
 
-TEST(Refusals, WhatIsWrongWithAllTouchesIsTheReason) {
+TEST(Refusals, ReasonNamesAFaultOfAllTouches) {
     struct WrongSet {
         std::string word;
         std::function<void(Touches&, const simulators::SimulatedTable&)> make;

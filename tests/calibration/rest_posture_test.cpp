@@ -10,7 +10,7 @@
 namespace frustumscreen::calibration {
 namespace {
 
-TEST(RestRequest, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHiddenTop) {
+TEST(RestRequest, EveryFourthRestLeansAndAHiddenTopNeedsABlock) {
     const glm::dvec2 size(640.0, 400.0);
     for (const bool has_top : {true, false}) {
         std::vector<TakenRest> taken;
@@ -33,7 +33,7 @@ TEST(RestRequest, ThreeFlatOnesFirstThenEveryFourthLeansAndABlockComesInForAHidd
     }
 }
 
-TEST(StillReports, LeaveAStrayReportOut) {
+TEST(StillReports, IgnoreAStrayReport) {
     StillReports still(3);
     const geometry::RigidTransform here;
     const geometry::RigidTransform elsewhere{{1.0, 0.0, 0.0, 0.0}, {0.01, 0.0, 0.0}};
@@ -62,7 +62,7 @@ geometry::RigidTransform standing(double yaw_rad, double raised_m, double lean_r
         numbers);
 }
 
-TEST(RestPosture, IsReadFromTheTrackerAlone) {
+TEST(RestPosture, IsDerivedFromTrackerReports) {
     const geometry::RigidTransform alike[] = {standing(1.0, 0.0, 0.0), standing(1.1, 0.0, 0.0)};
     EXPECT_FALSE(flat_posture(alike));
     const geometry::RigidTransform rests[] = {standing(0.0, 0.0, 0.0), standing(1.5, 0.0, 0.0),

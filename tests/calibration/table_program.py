@@ -73,7 +73,7 @@ class Table(unittest.TestCase):
                     rows.append(f"{k * 20000},{station}," + ",".join(f"{value:.9f}" for value in report) + ",1")
         (self.folder / "poses.csv").write_text("\n".join(rows) + "\n")
 
-    def test_from_the_first_cross_to_the_kept_file(self):
+    def test_calibrates_and_keeps_the_file(self):
         self.write([])
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], TrueTable(1280, 0.0))
         self.assertEqual(json.loads(self.run_program("kept", "--config", self.config, "--json").stdout), {"kept": []})
@@ -146,7 +146,7 @@ class Table(unittest.TestCase):
         (self.folder / "few.csv").write_text("\n".join(rows) + "\n")
         return self.run_program("touch", "--touch-up", "--from", self.folder / "few.csv", "--config", self.config, *words)
 
-    def test_a_kept_calibration_is_touched_up(self):
+    def test_touches_up_a_kept_calibration(self):
         self.write([])
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], TrueTable(1280, 0.0))
         crosses = [(90, 60, 0), (1190, 160, .12), (640, 740, 0), (1190, 740, 0), (90, 740, .12), (1190, 60, 0), (640, 60, .12)]
@@ -179,7 +179,7 @@ class Table(unittest.TestCase):
         self.assertIn("nothing moved", drawn.stdout)
         self.assertEqual(struct.unpack(">II", (self.folder / "map.png").read_bytes()[16:24]), (1600, 900))
 
-    def test_the_touch_up_is_offered_and_puts_the_picture_right(self):
+    def test_offers_the_touch_up_and_corrects_the_picture(self):
         self.write([])
         truth = TrueTable(1280, 0.4)
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], truth)
@@ -204,7 +204,7 @@ class Table(unittest.TestCase):
         self.assertIn("The calibration is kept.", done.stderr)
         self.check_picture(tomllib.loads((kept / "calibration-0002.toml").read_text()), truth)
 
-    def test_back_from_the_touch_up_leads_to_the_whole_and_out(self):
+    def test_back_from_the_touch_up_offers_the_full_calibration(self):
         self.write([])
         truth = TrueTable(1280, 0.4)
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], truth)
@@ -217,7 +217,7 @@ class Table(unittest.TestCase):
         self.assertRegex(left.stderr, r"(?s)Staff: put the picture right.*Staff: measure the whole table.*Nothing was changed")
         self.assertEqual([each.name for each in (self.folder / "kept").iterdir()], ["calibration-0001.toml"])
 
-    def test_from_the_start_no_touch_up_is_offered(self):
+    def test_from_start_offers_no_touch_up(self):
         self.write([])
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], TrueTable(1280, 0.4))
         (self.folder / "kept").mkdir()
@@ -234,7 +234,7 @@ class Table(unittest.TestCase):
         both = self.run_program("table", "--from-start", "--touch-up", "--config", self.config)
         self.assertEqual(both.returncode, 2)
 
-    def test_back_leaves_it_and_changes_nothing(self):
+    def test_back_leaves_without_changes(self):
         self.write([])
         self.record([{"u_px": 640, "v_px": 400, "block_m": 0, "turn_deg": 0}], TrueTable(1280, 0.0))
         self.config.write_text(self.config.read_text().replace("script = []", "script = [{ at_s = 0.3, button = 0 }]"))
@@ -252,14 +252,14 @@ class Table(unittest.TestCase):
         self.assertIn("The table cannot be measured The sensor's height above the prop's bottom is not known", left.stderr)
         self.assertIn("set calibration.sensor_height_m", left.stderr)
 
-    def test_without_a_tracker_or_buttons_it_says_so(self):
+    def test_rejects_settings_without_a_tracker(self):
         self.write([1.0])
         self.config.write_text(self.config.read_text().replace('kind = "replay"\nposes = "poses.csv"', 'kind = "none"'))
         failed = self.run_program("table", "--config", self.config, "--headless")
         self.assertEqual(failed.returncode, 1)
         self.assertIn("needs a tracker and two buttons", failed.stderr)
 
-    def test_in_stereo_it_is_refused_before_it_begins(self):
+    def test_rejects_stereo_before_it_begins(self):
         """The projector stretches a half of the picture, or alternates two; an anaglyph is shown pixel for pixel."""
         self.write([1.0])
         usual = self.config.read_text()

@@ -41,7 +41,7 @@ void walk(TouchProcedure procedure, TouchJudgement judged, const auto& look) {
     look(procedure);
 }
 
-TEST(TouchPicture, EverythingThatIsSaidHasItsWord) {
+TEST(TouchPicture, EveryMessageKeyHasASentence) {
     std::set<std::string> said;
     const auto listen = [&](const TouchProcedure& procedure) {
         said.insert(std::string(programs::table_words(procedure).key));
@@ -72,7 +72,7 @@ std::size_t arrow_pixels(const image::Image8& picture, const Cross& cross, doubl
     return count;
 }
 
-TEST(TouchPicture, WhereThePropsFrontGoesIsSeenBesideIt) {
+TEST(TouchPicture, ArrowForThePropsFrontIsVisibleBesideIt) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     constexpr double prop_px = 0.3 / 1.5 * 1.875 * width;
@@ -112,7 +112,7 @@ std::size_t word_pixels(const image::Image8& picture, const Cross& cross, double
 }
 
 /// The prop hides none of them, wherever it stands on the shipped table.
-TEST(TouchPicture, NoWordStandsWhereThePropDoes) {
+TEST(TouchPicture, WordsAvoidTheProp) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     constexpr double prop_px = 0.3 / 1.5 * 1.875 * width;
@@ -134,7 +134,7 @@ TEST(TouchPicture, NoWordStandsWhereThePropDoes) {
     EXPECT_GE(looked_at, 15);
 }
 
-TEST(JudgedWords, ATouchUpSaysWhatMovedAndHowFar) {
+TEST(JudgedWords, ATouchUpReportsWhatMovedAndHowFar) {
     TouchUp found;
     found.verdict = Verdict::Good;
     found.moved = Moved::Projector;

@@ -47,7 +47,7 @@ protected:
     MonotonicTime now = from_microseconds(1'000'000);
 };
 
-TEST_F(Procedure, EachRestOfASecondBecomesATouchAtTheMeanOfItsReports) {
+TEST_F(Procedure, EachRestBecomesATouchAtTheMeanReport) {
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(procedure.stage(), CalibrationStage::Place);
         EXPECT_EQ(procedure.at(), k);
@@ -69,7 +69,7 @@ TEST_F(Procedure, EachRestOfASecondBecomesATouchAtTheMeanOfItsReports) {
     }
 }
 
-TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
+TEST_F(Procedure, RestartsTheRestIfThePropMoves) {
     press(true);
     rest(on(0), TouchProcedure::rest / 2);
     geometry::RigidTransform pushed = on(0);
@@ -87,7 +87,7 @@ TEST_F(Procedure, APropThatMovesBeginsItsSecondAnew) {
     EXPECT_EQ(procedure.word(), TouchPrompt::Moved);
 }
 
-TEST_F(Procedure, WhatTheTrackerDoesNotSeeIsSaid) {
+TEST_F(Procedure, ReportsAPropThatIsNotTracked) {
     press(true);
     rest(on(0), TouchProcedure::rest / 2);
     now += TouchProcedure::timeout + tick;
@@ -110,7 +110,7 @@ TEST_F(Procedure, ATrackerOfOneReportASecondTakesLonger) {
     EXPECT_EQ(procedure.at(), 1U);
 }
 
-TEST_F(Procedure, NextWithoutMovingThePropIsNoTouch) {
+TEST_F(Procedure, RejectsATouchAtTheSamePlace) {
     touch(0);
     touch(0);
     EXPECT_EQ(procedure.at(), 1U);
@@ -119,7 +119,7 @@ TEST_F(Procedure, NextWithoutMovingThePropIsNoTouch) {
     EXPECT_EQ(procedure.at(), 2U);
 }
 
-TEST_F(Procedure, BackDoesTheTouchBeforeAgain) {
+TEST_F(Procedure, BackRepeatsTheLastTouch) {
     touch(0);
     press(true);
     press(false); // leaves the rest
@@ -130,7 +130,7 @@ TEST_F(Procedure, BackDoesTheTouchBeforeAgain) {
     EXPECT_TRUE(procedure.touches().empty());
 }
 
-TEST_F(Procedure, TheVerdictDecidesWhatComesNext) {
+TEST_F(Procedure, VerdictSelectsTheNextStage) {
     const auto judged = [&](Verdict verdict, std::vector<std::size_t> repeat) {
         procedure.judge({verdict, {}, std::move(repeat), three_residuals, false});
     };
@@ -155,7 +155,7 @@ TEST_F(Procedure, TheVerdictDecidesWhatComesNext) {
     EXPECT_EQ(procedure.stage(), CalibrationStage::Done);
 }
 
-TEST_F(Procedure, AfterARefusalItBeginsAnew) {
+TEST_F(Procedure, RestartsAfterARefusal) {
     for (std::size_t k = 0; k < 3; ++k) {
         touch(k);
     }
@@ -165,7 +165,7 @@ TEST_F(Procedure, AfterARefusalItBeginsAnew) {
     EXPECT_TRUE(procedure.touches().empty());
 }
 
-TEST_F(Procedure, BackFromTheFirstCrossLeadsToTheBeginningAndOut) {
+TEST_F(Procedure, BackFromTheFirstCrossReturnsToBeginThenLeaves) {
     press(false);
     EXPECT_EQ(procedure.stage(), CalibrationStage::Begin);
     press(true);
@@ -177,7 +177,7 @@ TEST_F(Procedure, BackFromTheFirstCrossLeadsToTheBeginningAndOut) {
     EXPECT_EQ(procedure.stage(), CalibrationStage::Left) << "it has ended";
 }
 
-TEST_F(Procedure, WhoDoesNothingLeaves) {
+TEST_F(Procedure, TimesOutWithoutPresses) {
     const auto wait = [&](Nanoseconds time) {
         now += time;
         procedure.step({now, on(0), false, false});
@@ -201,7 +201,7 @@ TEST_F(Procedure, WhoDoesNothingLeaves) {
     EXPECT_EQ(other.stage(), CalibrationStage::Left);
 }
 
-TEST_F(Procedure, WhereItCannotBeDoneNextDoesNothing) {
+TEST_F(Procedure, IgnoresNextIfCalibrationIsImpossible) {
     TouchProcedure cannot(crosses(), "the sensor's height is not known");
     cannot.step({now, std::nullopt, true, false});
     EXPECT_EQ(cannot.stage(), CalibrationStage::Begin);
@@ -221,7 +221,7 @@ protected:
     }
 };
 
-TEST_F(TouchUpProcedure, BackFromItsBeginningLeadsToTheWholeCalibration) {
+TEST_F(TouchUpProcedure, BackFromBeginGoesOnToTheFullCalibration) {
     EXPECT_EQ(procedure.stage(), CalibrationStage::Begin);
     press(false);
     EXPECT_EQ(procedure.stage(), CalibrationStage::GoesOn);
@@ -235,7 +235,7 @@ TEST_F(TouchUpProcedure, BackFromItsBeginningLeadsToTheWholeCalibration) {
     EXPECT_EQ(procedure.stage(), CalibrationStage::Left) << "who does nothing leaves";
 }
 
-TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
+TEST_F(TouchUpProcedure, TooFewTouchesAddCrosses) {
     touch_two();
     procedure.judge({Verdict::Repeat, {}, {}, {three_residuals.begin(), three_residuals.begin() + 2}, false});
     EXPECT_TRUE(procedure.asks_for_more());
@@ -255,7 +255,7 @@ TEST_F(TouchUpProcedure, TooFewTouchesBringMoreCrosses) {
     EXPECT_EQ(procedure.stage(), CalibrationStage::Done);
 }
 
-TEST_F(Procedure, TooFewTouchesBringTwoMoreCrossesAtATime) {
+TEST_F(Procedure, TooFewTouchesAddTwoCrossesAtATime) {
     procedure = TouchProcedure(TouchTask::Anew, crosses(), 1);
     press(true);
     for (const std::size_t count : {1U, 3U}) {
@@ -271,7 +271,7 @@ TEST_F(Procedure, TooFewTouchesBringTwoMoreCrossesAtATime) {
     }
 }
 
-TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {
+TEST_F(TouchUpProcedure, AfterARefusalNextGoesOnAndBackRestarts) {
     touch_two();
     procedure.judge({});
     press(false);
@@ -286,7 +286,7 @@ TEST_F(TouchUpProcedure, AfterARefusalNextMeasuresAnewAndBackTouchesAgain) {
 
 /// The whole procedure on a simulated table: crosses chosen for the described projector, touches on another
 /// one.
-TEST(ProcedureOnATable, EndsWithACalibrationThatIsRight) {
+TEST(ProcedureOnATable, EndsWithAnAccurateCalibration) {
     const simulators::SimulatedTable table = simulators::some_table(3);
     ChosenCrosses chosen;
     const std::vector<Cross> crosses = chosen.of(table, 9);

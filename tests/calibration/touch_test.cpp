@@ -11,7 +11,7 @@
 namespace frustumscreen::calibration {
 namespace {
 
-TEST(Touch, WithoutNoiseTheTruthIsFound) {
+TEST(Touch, FindsTheTruthWithoutNoise) {
     ChosenCrosses crosses;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const simulators::SimulatedTable table = simulators::some_table(seed);
@@ -29,7 +29,7 @@ TEST(Touch, WithoutNoiseTheTruthIsFound) {
     }
 }
 
-TEST(Touch, ItIsInTheTablesFrameOfTheConventions) {
+TEST(Touch, UsesTheTableFrameOfTheConventions) {
     ChosenCrosses crosses;
     const simulators::SimulatedTable table = simulators::some_table(5);
     simulators::SeededNumbers numbers(5);
@@ -46,7 +46,7 @@ TEST(Touch, ItIsInTheTablesFrameOfTheConventions) {
 }
 
 /// With a twentieth of the noise, so that its effects are nearly linear.
-TEST(Touch, TheFitIsTheBestOneToFirstOrder) {
+TEST(Touch, FitIsOptimalToFirstOrder) {
     constexpr TouchNoise little{3e-4 / 20, 2.6e-3 / 20, 0.5 / 20, 1e-4 / 20};
     ChosenCrosses crosses;
     constexpr std::uint64_t tables = 12;
@@ -192,20 +192,20 @@ void expect_no_more_than_the_noise_makes(int count, int tables) {
     EXPECT_LT(std::sqrt(figures.square_of_said), 1.2);
 }
 
-TEST(Touch, NineLeaveNoMoreThanTheirNoiseMakes) {
+TEST(Touch, ErrorOfNineTouchesMatchesTheirNoise) {
     expect_no_more_than_the_noise_makes(9, 40);
 }
 
-TEST(Touch, FifteenLeaveNoMoreThanTheirNoiseMakes) {
+TEST(Touch, ErrorOfFifteenTouchesMatchesTheirNoise) {
     expect_no_more_than_the_noise_makes(15, 40);
 }
 
-TEST(Touch, DISABLED_OverAHundredTables) {
+TEST(Touch, DISABLED_ErrorsMatchTheNoiseOverAHundredTables) {
     expect_no_more_than_the_noise_makes(9, 100);
     expect_no_more_than_the_noise_makes(15, 100);
 }
 
-TEST(Touch, LaidOnASideThreeTimesItNeedsNoSensorsHeight) {
+TEST(Touch, NeedsNoSensorHeightWithThreeTouchesOnASide) {
     ChosenCrosses crosses;
     const simulators::SimulatedTable table = simulators::some_table(7);
     simulators::SeededNumbers numbers(7);

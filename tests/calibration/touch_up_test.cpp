@@ -164,7 +164,7 @@ Faulty with_one_wrong(Moved what, std::size_t count, std::uint64_t seeds, Chosen
     return out;
 }
 
-TEST(TouchUp, EachResidualIsWhatTheOtherTouchesSayOfIt) {
+TEST(TouchUp, ResidualsMatchTheFitOfTheOtherTouches) {
     ChosenCrosses crosses;
     int compared = 0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -189,7 +189,7 @@ TEST(TouchUp, EachResidualIsWhatTheOtherTouchesSayOfIt) {
     EXPECT_GE(compared, 7);
 }
 
-TEST(TouchUp, ThePictureComesBackToItsPlace) {
+TEST(TouchUp, CorrectsThePictureAfterAMove) {
     ChosenCrosses crosses;
     for (const Moved what : {Moved::Projector, Moved::Tracker}) {
         const Share share = share_of(what, 10e-3, 7, 8, crosses);
@@ -202,14 +202,14 @@ TEST(TouchUp, ThePictureComesBackToItsPlace) {
 }
 
 /// One wrong touch is refused, or more touches are requested.
-TEST(TouchUp, OneWrongTouchIsNoPromise) {
+TEST(TouchUp, VerdictsHoldWithOneWrongTouch) {
     ChosenCrosses crosses;
     for (const std::size_t count : {3U, 5U}) {
         EXPECT_EQ(with_one_wrong(Moved::Projector, count, 12, crosses).broken, 0);
     }
 }
 
-TEST(TouchUp, WhereNothingMovedNothingIsChanged) {
+TEST(TouchUp, ReportsThatNothingMoved) {
     ChosenCrosses crosses;
     const Share share = share_of(Moved::Nothing, 0.0, 3, 20, crosses);
     EXPECT_GE(share.nothing, 19);
@@ -217,7 +217,7 @@ TEST(TouchUp, WhereNothingMovedNothingIsChanged) {
 
 /// Refusals: touches that contradict each other by a wrong block or a tracker glitch; touches in a line;
 /// touches in a corner; too few.
-TEST(TouchUp, WhatSaysNothingIsRefused) {
+TEST(TouchUp, RefusesDegenerateTouchesWithAReason) {
     ChosenCrosses crosses;
     const Bumped one = bumped(3, Moved::Projector, 10e-3, crosses);
     simulators::SeededNumbers numbers(1);
@@ -295,7 +295,7 @@ ByButtons by_buttons(int few, int more, std::uint64_t seeds, ChosenCrosses& cros
     return out;
 }
 
-TEST(TouchUp, AtTheCrossesThatTheTableShowsItChecksItself) {
+TEST(TouchUp, VerdictsHoldAtTheShownCrosses) {
     ChosenCrosses crosses;
     const ByButtons seven = by_buttons(7, 2, 4, crosses);
     EXPECT_EQ(seven.after_all + seven.refused, 4);

@@ -39,7 +39,7 @@ int legend_step(const image::Image8& picture, int x, int y) {
     return -1;
 }
 
-TEST(UncertaintyPicture, ItsColoursAreTheUncertaintysOfThatPlace) {
+TEST(UncertaintyPicture, ColoursShowTheUncertaintyOfEachPlace) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     const image::Image8 picture =
@@ -70,7 +70,7 @@ bool is_cut_off(const image::Image8& picture) {
     return false;
 }
 
-TEST(UncertaintyPicture, ItsWordsAndCrossesStayWithin) {
+TEST(UncertaintyPicture, WordsAndCrossesStayInsideThePicture) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     ChosenCrosses crosses;
@@ -88,7 +88,7 @@ TEST(UncertaintyPicture, ItsWordsAndCrossesStayWithin) {
 }
 
 /// By hand: the measured places are the picture's own corners, and those on the board are at the prop's top.
-TEST(UncertaintyPicture, OfCornersItHasTheCornersCrosses) {
+TEST(UncertaintyPicture, DrawsCrossesAtTheMeasuredCorners) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     CornerCalibration found;

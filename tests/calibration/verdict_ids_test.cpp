@@ -43,7 +43,7 @@ std::map<std::string, std::set<std::string>> ids_in_sources() {
     return sources;
 }
 
-TEST(VerdictIds, AreThoseOfThePage) {
+TEST(VerdictIds, MatchTheDocumentedList) {
     const std::string page = text_of(source_dir() + "/docs/verdicts.md");
     const std::size_t table = page.find("|---|---|");
     ASSERT_NE(table, std::string::npos);
@@ -74,7 +74,7 @@ TEST(VerdictIds, AreSetWithTheirSentences) {
 }
 
 /// Each way's verdict on an empty input.
-TEST(VerdictIds, OfNoPoints) {
+TEST(VerdictIds, EmptyInputReportsTooFewPoints) {
     constexpr int width = 1920;
     constexpr int height = 1200;
     TouchSetup touches;

@@ -57,7 +57,7 @@ struct Driven {
     CameraFrame frame;
 };
 
-TEST(CameraDriver, SetsACameraUpAndHandsItsFramesOn) {
+TEST(CameraDriver, SetsUpACameraAndPassesItsFramesOn) {
     Driven driven;
     EXPECT_NEAR(driven.run(seconds(2)), 60, 1);
     EXPECT_EQ(driven.driver.state(), CameraState::Running);
@@ -75,7 +75,7 @@ TEST(CameraDriver, SetsACameraUpAndHandsItsFramesOn) {
 
 /// Each frame takes 20 ms of CPU time, i.e. 80 ms at a quarter of a core: 12.5 of 30 frames per second are
 /// used, and the camera is healthy.
-TEST(CameraDriver, PassesFramesOverSoThatItsThreadKeepsItsShare) {
+TEST(CameraDriver, SkipsFramesToKeepItsCpuShare) {
     double busy_s = 0.0;
     int used = 0;
     std::uint64_t decoded = 0;
@@ -99,7 +99,7 @@ TEST(CameraDriver, PassesFramesOverSoThatItsThreadKeepsItsShare) {
 
 /// Nine milliseconds are 27 per cent of a core at 30 Hz: one frame of thirteen is skipped, not every other
 /// one.
-TEST(CameraDriver, AFrameThatCostsALittleTooMuchTakesFewAway) {
+TEST(CameraDriver, SkipsFewFramesIfTheyCostSlightlyTooMuch) {
     double busy_s = 0.0;
     Driven driven(
         {}, {}, [&busy_s](const CameraFrame&) { busy_s += 0.009; },
@@ -108,7 +108,7 @@ TEST(CameraDriver, AFrameThatCostsALittleTooMuchTakesFewAway) {
     EXPECT_NEAR(static_cast<double>(driven.driver.counts().frames), 0.25 / 0.009 * 10.0, 3.0);
 }
 
-TEST(CameraDriver, IsBackWithinTwoSecondsOfBeingPluggedIn) {
+TEST(CameraDriver, RunsAgainWithinTwoSecondsOfReplugging) {
     Driven driven;
     static_cast<void>(driven.run(seconds(2)));
     for (int k = 0; k < 20; ++k) {
@@ -123,7 +123,7 @@ TEST(CameraDriver, IsBackWithinTwoSecondsOfBeingPluggedIn) {
     EXPECT_EQ(driven.camera.unmapped, 20 * 4) << "the buffers of those that are gone";
 }
 
-TEST(CameraDriver, TellsWhatThePictureShows) {
+TEST(CameraDriver, ReportsDarkBlindedFrozenAndSlowPictures) {
     Driven driven;
     static_cast<void>(driven.run(seconds(3)));
     const auto usual = driven.camera.picture;
@@ -152,7 +152,7 @@ TEST(CameraDriver, TellsWhatThePictureShows) {
     EXPECT_EQ(driven.driver.counts().connections, 1U) << "none of this needs a new set-up";
 }
 
-TEST(CameraDriver, ACameraThatStopsIsToldAndSetUpAnewUntilItSends) {
+TEST(CameraDriver, ReportsASilentCameraAndSetsItUpAgainUntilItSends) {
     Driven driven;
     static_cast<void>(driven.run(seconds(3)));
     driven.camera.sends = false;
@@ -166,7 +166,7 @@ TEST(CameraDriver, ACameraThatStopsIsToldAndSetUpAnewUntilItSends) {
     EXPECT_LT(driven.until(CameraState::Running), seconds(2));
 }
 
-TEST(CameraDriver, BrokenFramesAreCountedNotHandedOnAndTold) {
+TEST(CameraDriver, CountsAndReportsBrokenFrames) {
     Driven driven;
     static_cast<void>(driven.run(seconds(3)));
     driven.camera.marks_broken = true;
@@ -190,7 +190,7 @@ TEST(CameraDriver, MissingNumbersAreCounted) {
     EXPECT_EQ(driven.driver.counts().lost, 7U);
 }
 
-TEST(CameraDriver, WhatPreventsItsOpeningIsSaid) {
+TEST(CameraDriver, ReportsWhyACameraCannotBeOpened) {
     const std::vector<std::pair<int, CameraState>> reasons{{EACCES, CameraState::NoPermission},
                                                            {EBUSY, CameraState::InUse},
                                                            {EIO, CameraState::CannotBeOpened},
@@ -212,7 +212,7 @@ TEST(CameraDriver, WhatPreventsItsOpeningIsSaid) {
     EXPECT_LT(driven.until(CameraState::Running), seconds(1));
 }
 
-TEST(CameraDriver, ACameraWhoseExposureCannotBeLockedRunsAndSaysSo) {
+TEST(CameraDriver, RunsAndReportsAnUnlockableExposure) {
     Driven driven;
     driven.camera.controls[V4L2_CID_EXPOSURE_AUTO].stubborn = true;
     static_cast<void>(driven.run(seconds(1)));
@@ -220,7 +220,7 @@ TEST(CameraDriver, ACameraWhoseExposureCannotBeLockedRunsAndSaysSo) {
     EXPECT_EQ(health_of(driven.driver.state()), CameraHealth::Well);
 }
 
-TEST(CameraDriver, ACameraIsChosenByItsNameOrPath) {
+TEST(CameraDriver, SelectsACameraByNameOrPath) {
     FakeCamera second;
     make_usual(second);
     second.name = "Above the table";
@@ -239,7 +239,7 @@ TEST(CameraDriver, ACameraIsChosenByItsNameOrPath) {
     }
 }
 
-TEST(CameraDriver, OneThatNeverSendsDoesNotKeepAnotherOut) {
+TEST(CameraDriver, TriesAnotherCameraIfOneNeverSends) {
     FakeCamera second;
     make_usual(second);
     second.sends = false;
@@ -250,7 +250,7 @@ TEST(CameraDriver, OneThatNeverSendsDoesNotKeepAnotherOut) {
     EXPECT_GT(second.started, 1) << "the one that failed last is tried last";
 }
 
-TEST(ListCameras, NamesAllAndWhatTheyOffer) {
+TEST(ListCameras, ListsAvailableCamerasWithTheirModes) {
     FakeCamera one;
     FakeCamera two;
     FakeCamera held;

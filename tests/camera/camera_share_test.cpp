@@ -218,7 +218,7 @@ std::string figures_line(std::string_view use, double max_share, const Spent& sp
 }
 
 /// Each frame takes 16 ms, so 15 or 16 of 30 are used: each gives a pose and a head.
-TEST(CameraShare, WhatIsSkippedTakesNeitherTheTagsNorTheVisitorAway) {
+TEST(CameraShare, SkippedFramesLoseNeitherTagsNorVisitor) {
     double busy_s = 0.0;
     const std::vector<Picture> table = table_pictures(10);
     const Room room = room_of(640, 360);

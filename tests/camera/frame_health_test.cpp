@@ -49,7 +49,7 @@ FrameLook dark(std::uint64_t number) {
     return even(18, number);
 }
 
-TEST(FrameLook, SaysWhatAPictureShows) {
+TEST(FrameLook, MeasuresDarkestMedianAndBrightest) {
     Picture picture;
     for (int k = 0; k < 70000; ++k) {
         picture.push_back(static_cast<std::uint8_t>(k % 200)); // all codes below 200, equally often
@@ -60,7 +60,7 @@ TEST(FrameLook, SaysWhatAPictureShows) {
     EXPECT_NEAR(look.brightest, 198, 1);
 }
 
-TEST(FrameLook, EachByteCountsInItsHash) {
+TEST(FrameLook, HashDependsOnEachByte) {
     const Picture picture = noisy_ramp(61, 3, 1); // a length not divisible by a word
     const std::uint64_t hash = look_at(picture).bytes_hash;
     EXPECT_EQ(look_at(Picture(picture)).bytes_hash, hash);
@@ -74,13 +74,13 @@ TEST(FrameLook, EachByteCountsInItsHash) {
     EXPECT_NE(look_at(longer).bytes_hash, hash);
 }
 
-TEST(FrameHealth, AStreamWithNoiseIsWell) {
+TEST(FrameHealth, NoisyStreamIsHealthy) {
     Stream stream;
     EXPECT_EQ(stream.send(seconds(10), well), FrameVerdict::Well);
     EXPECT_NEAR(stream.judge.rate_hz(stream.now), 30.0, 0.5);
 }
 
-TEST(FrameHealth, ACoveredCameraIsDarkAndToldOnlyOnceItHasLasted) {
+TEST(FrameHealth, ReportsADarkPictureOnlyAfterADelay) {
     Stream stream;
     static_cast<void>(stream.send(seconds(3), well));
     EXPECT_EQ(stream.send(milliseconds(450), dark), FrameVerdict::Well)
@@ -102,7 +102,7 @@ TEST(FrameHealth, ADimRoomIsNotDark) {
     EXPECT_EQ(stream.send(seconds(3), dim), FrameVerdict::Well);
 }
 
-TEST(FrameHealth, HalfOfThePictureSaturatedIsBlinded) {
+TEST(FrameHealth, ReportsBlindedIfHalfThePictureIsSaturated) {
     Stream stream;
     const auto with_light = [](double share) {
         return [share](std::uint64_t number) {
@@ -119,7 +119,7 @@ TEST(FrameHealth, HalfOfThePictureSaturatedIsBlinded) {
     EXPECT_EQ(stream.send(seconds(3), [](auto number) { return even(200, number); }), FrameVerdict::Well);
 }
 
-TEST(FrameHealth, TheSameBytesForASecondAreFrozen) {
+TEST(FrameHealth, ReportsFrozenAfterASecondOfEqualFrames) {
     Stream stream;
     const FrameLook one = well(7);
     const auto same = [&](std::uint64_t) { return one; };
@@ -132,7 +132,7 @@ TEST(FrameHealth, TheSameBytesForASecondAreFrozen) {
               FrameVerdict::Well);
 }
 
-TEST(FrameHealth, ADarkOrBlindedPictureWithoutNoiseIsCalledThat) {
+TEST(FrameHealth, DarkAndBlindedTakePrecedenceOverFrozen) {
     Stream stream;
     const FrameLook black = look_at(Picture(64 * 48, 16));
     const FrameLook white = look_at(Picture(64 * 48, 255));
@@ -140,7 +140,7 @@ TEST(FrameHealth, ADarkOrBlindedPictureWithoutNoiseIsCalledThat) {
     EXPECT_EQ(stream.send(seconds(4), [&](std::uint64_t) { return white; }), FrameVerdict::Blinded);
 }
 
-TEST(FrameHealth, LessThanHalfOfTheFramesIsSlow) {
+TEST(FrameHealth, ReportsSlowBelowHalfTheRate) {
     Stream stream;
     EXPECT_EQ(stream.send(seconds(5), well, milliseconds(60)), FrameVerdict::Well) << "17 Hz of 30";
     EXPECT_EQ(stream.send(seconds(5), well, milliseconds(75)), FrameVerdict::Slow) << "13 Hz of 30";
@@ -148,7 +148,7 @@ TEST(FrameHealth, LessThanHalfOfTheFramesIsSlow) {
     EXPECT_EQ(stream.send(seconds(3), well), FrameVerdict::Well);
 }
 
-TEST(FrameHealth, FramesThatWereOvertakenCountForTheRate) {
+TEST(FrameHealth, SkippedFramesCountForTheRate) {
     Stream stream;
     FrameVerdict verdict = FrameVerdict::Well;
     for (int k = 0; k < 60; ++k, stream.now += milliseconds(100)) { // ten checks per second of thirty frames
@@ -158,7 +158,7 @@ TEST(FrameHealth, FramesThatWereOvertakenCountForTheRate) {
     EXPECT_EQ(verdict, FrameVerdict::Well);
 }
 
-TEST(FrameHealth, APauseIsSilentAndItsEndIsNotSlow) {
+TEST(FrameHealth, ReportsAPauseAsSilentAndItsEndNotAsSlow) {
     Stream stream;
     static_cast<void>(stream.send(seconds(3), well));
     EXPECT_EQ(stream.wait(milliseconds(950)), FrameVerdict::Well);
@@ -169,13 +169,13 @@ TEST(FrameHealth, APauseIsSilentAndItsEndIsNotSlow) {
     EXPECT_EQ(stream.judge.verdict(stream.now), FrameVerdict::Well);
 }
 
-TEST(FrameHealth, ACameraThatNeverSendsIsSilentAfterItsTimeToStart) {
+TEST(FrameHealth, ReportsSilentIfNoFrameArrivesAfterTheStart) {
     Stream stream;
     EXPECT_EQ(stream.wait(milliseconds(1950)), FrameVerdict::Well);
     EXPECT_EQ(stream.wait(milliseconds(700)), FrameVerdict::Silent);
 }
 
-TEST(FrameHealth, ACameraOfOneFrameASecondIsNeitherSlowNorSilent) {
+TEST(FrameHealth, OneHertzCameraIsNeitherSlowNorSilent) {
     MonotonicTime now(seconds(50));
     FrameHealth judge(1.0, now);
     for (int k = 0; k < 200; ++k, now += milliseconds(100)) {

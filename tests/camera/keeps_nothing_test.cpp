@@ -107,7 +107,7 @@ protected:
     }
 };
 
-TEST_F(KeepsNothing, NoFileIsOpenedForWritingAndNothingLeavesTheProcess) {
+TEST_F(KeepsNothing, OpensNoFileForWritingAndSendsNothing) {
     const std::vector<std::string> calls = calls_of(FRUSTUMSCREEN_FRAMES_IN_MEMORY);
     EXPECT_EQ(text("said"), "60 frames\n");
     EXPECT_GT(calls.size(), 100U);
@@ -119,7 +119,7 @@ TEST_F(KeepsNothing, NoFileIsOpenedForWritingAndNothingLeavesTheProcess) {
     })) << "the way in which the kernel's cameras are opened was seen";
 }
 
-TEST_F(KeepsNothing, AFrameThatIsWrittenIsSeen) {
+TEST_F(KeepsNothing, DetectsAWrittenFrame) {
     const std::vector<std::string> calls =
         calls_of(FRUSTUMSCREEN_FRAMES_IN_MEMORY " " + (folder / "frame").string());
     ASSERT_TRUE(fs::exists(folder / "frame"));
@@ -167,7 +167,7 @@ private:
     std::string descriptor_;
 };
 
-TEST_F(UsesKeepNothing, ButTheSmallFileOfTheDriftsMarks) {
+TEST_F(UsesKeepNothing, WriteOnlyTheDriftFile) {
     run("");
     EXPECT_EQ(text("said"), "enough frames\n");
     for (const std::string& call : others_) {
@@ -183,7 +183,7 @@ TEST_F(UsesKeepNothing, ButTheSmallFileOfTheDriftsMarks) {
     EXPECT_LT(written_, 4096U);
 }
 
-TEST_F(UsesKeepNothing, AFrameThatIsWrittenIsSeen) {
+TEST_F(UsesKeepNothing, DetectsAWrittenFrame) {
     run(" " + (kept_ / "frame").string());
     ASSERT_EQ(fs::file_size(kept_ / "frame"), 320U * 180U);
     EXPECT_GE(others_.size(), 2U) << "its opening and its writing";

@@ -55,7 +55,7 @@ double worst(const std::vector<std::uint8_t>& found, const std::vector<double>& 
     return most;
 }
 
-TEST(LumaReader, GreyIsTakenAsItIsAndItsPaddingLeftOut) {
+TEST(LumaReader, CopiesGreyWithoutItsPadding) {
     LumaReader reader;
     const Picture picture = noisy_ramp(width, height, 1);
     Picture padded;
@@ -70,7 +70,7 @@ TEST(LumaReader, GreyIsTakenAsItIsAndItsPaddingLeftOut) {
     EXPECT_EQ(luma, picture);
 }
 
-TEST(LumaReader, YuyvIsEverySecondByte) {
+TEST(LumaReader, ReadsEverySecondByteOfYuyv) {
     LumaReader reader;
     std::vector<std::uint8_t> luma;
     ASSERT_TRUE(reader.read({PixelFormat::Yuyv, width, height, 2 * width},
@@ -78,7 +78,7 @@ TEST(LumaReader, YuyvIsEverySecondByte) {
     EXPECT_EQ(luma, noisy_ramp(width, height, 1));
 }
 
-TEST(LumaReader, AFrameThatIsTooShortIsRefusedByTheByte) {
+TEST(LumaReader, RejectsAFrameOneByteTooShort) {
     LumaReader reader;
     std::vector<std::uint8_t> luma;
     const Picture picture = noisy_ramp(width, height, 1, 2);
@@ -93,7 +93,7 @@ TEST(LumaReader, AFrameThatIsTooShortIsRefusedByTheByte) {
     EXPECT_FALSE(reader.read({PixelFormat::Mjpeg, width, height, 0}, {}, luma));
 }
 
-TEST(LumaReader, OfAJpegItTakesTheBrightness) {
+TEST(LumaReader, DecodesTheLumaOfAJpeg) {
     LumaReader reader;
     const Jpeg jpeg = coloured_jpeg(width, height);
     std::vector<std::uint8_t> luma;
@@ -102,7 +102,7 @@ TEST(LumaReader, OfAJpegItTakesTheBrightness) {
 }
 
 /// Cameras omit the Huffman tables, which are always equal (USB Video Class, Motion-JPEG payload).
-TEST(LumaReader, AJpegWithoutItsHuffmanTablesIsReadWithTheUsualOnes) {
+TEST(LumaReader, ReadsAJpegWithoutHuffmanTables) {
     LumaReader reader;
     Jpeg jpeg = coloured_jpeg(width, height);
     const Picture marker{0xFF, 0xC4};
@@ -115,7 +115,7 @@ TEST(LumaReader, AJpegWithoutItsHuffmanTablesIsReadWithTheUsualOnes) {
     EXPECT_LT(worst(luma, jpeg.luma), quantised);
 }
 
-TEST(LumaReader, AJpegOfAnotherSizeOrThatIsCutOffIsRefused) {
+TEST(LumaReader, RejectsAJpegOfAnotherSizeOrTruncated) {
     LumaReader reader;
     const Jpeg jpeg = coloured_jpeg(width, height);
     const Jpeg other = coloured_jpeg(width + 1, height);

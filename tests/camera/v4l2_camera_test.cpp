@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-TEST(V4l2Camera, FramesComeThroughWholeEachOnceAndACameraIsFoundAgain) {
+TEST(V4l2Camera, DeliversEachFrameOnceAndReconnects) {
     FakeCamera fake;
     make_usual(fake);
     fake.real_time = true;
@@ -43,7 +43,7 @@ TEST(V4l2Camera, FramesComeThroughWholeEachOnceAndACameraIsFoundAgain) {
     EXPECT_GE(camera.counts().frames, last);
 }
 
-TEST(FrameMailbox, ThreeFramesGoRoundAndNoneIsCopied) {
+TEST(FrameMailbox, RecyclesFrameBuffersWithoutCopying) {
     FrameMailbox mailbox;
     CameraFrame filled;
     CameraFrame taken;

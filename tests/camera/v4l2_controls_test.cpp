@@ -13,7 +13,7 @@ std::vector<LockedControl> locked(FakeCamera& camera, const CameraRequest& wish)
     return device ? lock_controls(**device, wish) : std::vector<LockedControl>();
 }
 
-TEST(CameraControls, AutomaticsAreSwitchedOffAndTheCamerasOwnValuesKept) {
+TEST(CameraControls, DisablesAutomaticsAndKeepsTheCamerasValues) {
     FakeCamera camera;
     make_usual(camera);
     const auto controls = locked(camera, {});
@@ -29,7 +29,7 @@ TEST(CameraControls, AutomaticsAreSwitchedOffAndTheCamerasOwnValuesKept) {
     EXPECT_EQ(camera.controls[V4L2_CID_AUTO_WHITE_BALANCE].value, 0);
 }
 
-TEST(CameraControls, WishesAreSetAndReadBack) {
+TEST(CameraControls, SetsRequestedValuesAndReadsThemBack) {
     FakeCamera camera;
     make_usual(camera);
     CameraRequest wish;
@@ -45,7 +45,7 @@ TEST(CameraControls, WishesAreSetAndReadBack) {
     EXPECT_EQ(controls[2].value, 5200.0);
 }
 
-TEST(CameraControls, ACameraThatStaysAutomaticIsToldFromOneWithoutTheControl) {
+TEST(CameraControls, DistinguishesRefusedFromMissingControls) {
     FakeCamera camera;
     make_usual(camera);
     camera.controls[V4L2_CID_EXPOSURE_AUTO].stubborn = true;
@@ -60,7 +60,7 @@ TEST(CameraControls, ACameraThatStaysAutomaticIsToldFromOneWithoutTheControl) {
     EXPECT_EQ(controls[2].lock, Lock::NotThere);
 }
 
-TEST(CameraControls, ExposureMayNotLengthenFrames) {
+TEST(CameraControls, DisablesExposurePriority) {
     FakeCamera camera;
     make_usual(camera);
     camera.controls[V4L2_CID_EXPOSURE_AUTO_PRIORITY] = {1, 0, 1};

@@ -31,7 +31,7 @@ CameraRequest wish_of(int width, int height, double rate_hz) {
     return wish;
 }
 
-TEST(CameraMode, AllThatCanBeReadIsListed) {
+TEST(CameraMode, ListsAllReadableModes) {
     FakeCamera camera;
     make_webcam(camera);
     const auto device = device_of(camera);
@@ -40,7 +40,7 @@ TEST(CameraMode, AllThatCanBeReadIsListed) {
     EXPECT_EQ(modes.front(), (CameraMode{PixelFormat::Mjpeg, 1920, 1080, 30.0}));
 }
 
-TEST(CameraMode, TheSizeComesFirstThenTheRateThenTheFormatThatCostsLeast) {
+TEST(CameraMode, PrefersSizeThenRateThenTheCheapestFormat) {
     FakeCamera camera;
     make_webcam(camera);
     const auto device = device_of(camera);
@@ -84,7 +84,7 @@ public:
     }
 };
 
-TEST(CameraMode, OfARangeItTakesWhatIsNextToTheWish) {
+TEST(CameraMode, PicksTheNearestSizeAndRateOfARange) {
     RangeDevice device;
     const auto modes = [&device](const CameraRequest& wish) { return list_modes(device, wish); };
     EXPECT_EQ(modes(wish_of(700, 500, 30)), (std::vector{CameraMode{PixelFormat::Grey, 688, 496, 30}}));
@@ -116,14 +116,14 @@ public:
     }
 };
 
-TEST(CameraMode, ListsThatNeverEndAreCutOff) {
+TEST(CameraMode, LimitsEndlessLists) {
     EndlessDevice device;
     const std::vector<CameraMode> modes = list_modes(device, {});
     EXPECT_EQ(modes.size(), 64U * 64U * 64U); // formats, half of the sizes, rates
     EXPECT_TRUE(choose_mode(modes, {}));
 }
 
-TEST(CameraMode, WhatTheDriverReallyTookIsReadBack) {
+TEST(CameraMode, ReadsBackTheModeThatTheDriverSet) {
     FakeCamera camera;
     make_usual(camera);
     camera.row_padding = 64;
@@ -136,7 +136,7 @@ TEST(CameraMode, WhatTheDriverReallyTookIsReadBack) {
     EXPECT_EQ(set->rate_hz, 30.0);
 }
 
-TEST(CameraMode, ADriverThatDoesNotSayItsRateHasNone) {
+TEST(CameraMode, RateIsZeroIfTheDriverReportsNone) {
     FakeCamera camera;
     make_usual(camera);
     camera.formats.front().sizes.front().rates_hz.clear();
@@ -145,7 +145,7 @@ TEST(CameraMode, ADriverThatDoesNotSayItsRateHasNone) {
     EXPECT_EQ(set->rate_hz, 0.0);
 }
 
-TEST(CameraMode, ARefusalSaysWhoseItIs) {
+TEST(CameraMode, DistinguishesInUseRefusedAndNoFormat) {
     FakeCamera camera;
     make_usual(camera);
     const auto device = device_of(camera);

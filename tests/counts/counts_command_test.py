@@ -62,7 +62,7 @@ class Counts(unittest.TestCase):
             minutes[names[1]] += (all_ms - first) / 60000
         return visits, minutes
 
-    def test_the_table_and_the_picture_of_a_year(self):
+    def test_prints_the_table_and_draws_a_year(self):
         visits, minutes = self.a_year()
         done = self.run_counts("--csv", self.out / "counts.csv", "--plot", self.out / "counts.svg")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -82,7 +82,7 @@ class Counts(unittest.TestCase):
             left, top, wide, high = (float(box.get(key, 0)) for key in ("x", "y", "width", "height"))
             self.assertTrue(0 <= left and left + wide <= view[2] and 0 <= top and top + high <= view[3], box.attrib)
 
-    def test_some_days_of_it(self):
+    def test_selects_a_range_of_days(self):
         self.a_year()
         done = self.run_counts("--from", "2026-03-01", "--to", "2026-03-07", "--json")
         self.assertEqual([each["day"] for each in json.loads(done.stdout)["days"]], [f"2026-03-0{k}" for k in range(1, 8)])
@@ -90,7 +90,7 @@ class Counts(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("this is not a day; write it as 2026-11-27 [counts.day]", done.stderr)
 
-    def test_damaged_files_are_told_and_stay(self):
+    def test_reports_and_keeps_damaged_files(self):
         self.write("2026-11-26.json", day_file("2026-11-26", {10: (3, 60000)}, {"Amphora": (3, 60000)}))
         self.write("2026-11-27.json", day_file("2026-11-27", {10: (3, 60000)}, {"Amphora": (3, 60001)}))
         self.write("2026-11-28.json", "\x00\x1b[2J")
@@ -101,7 +101,7 @@ class Counts(unittest.TestCase):
         self.assertIn("3 visits, 1 minutes", done.stdout)
         self.assertEqual(len(list(self.folder.iterdir())), 3)
 
-    def test_nothing_to_read(self):
+    def test_reports_a_folder_without_counts(self):
         self.assertEqual(self.run_counts().stdout, "No visits have been counted yet.\n")
         self.folder.rmdir()
         done = self.run_counts()
@@ -109,7 +109,7 @@ class Counts(unittest.TestCase):
         self.assertEqual(len(done.stderr.splitlines()), 1)
         self.assertIn("no counts can be read there", done.stderr)
 
-    def test_wrong_use(self):
+    def test_rejects_wrong_options(self):
         done = self.run_counts("--no-such-option")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
 

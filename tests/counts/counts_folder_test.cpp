@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::chrono::sys_days some_day = std::chrono::year(2026) / 11 / 27;
 
-TEST_F(FolderOfCounts, ADayIsGoneOnWith) {
+TEST_F(FolderOfCounts, ContinuesADay) {
     ASSERT_TRUE(keep_day(folder, counted(some_day, 3)));
     EXPECT_TRUE(has("2026-11-27.json"));
     const Result<OpenedDay> opened = open_day(folder, some_day);
@@ -18,7 +18,7 @@ TEST_F(FolderOfCounts, ADayIsGoneOnWith) {
     EXPECT_EQ(next->counts.all(), Tally{});
 }
 
-TEST_F(FolderOfCounts, ADamagedFileIsPutAsideAndNeverWrittenOver) {
+TEST_F(FolderOfCounts, RenamesDamagedFilesWithoutOverwriting) {
     for (int k = 1; k <= 3; ++k) {
         put("2026-11-27.json", "damaged " + std::to_string(k));
         const Result<OpenedDay> opened = open_day(folder, some_day);
@@ -33,14 +33,14 @@ TEST_F(FolderOfCounts, ADamagedFileIsPutAsideAndNeverWrittenOver) {
     EXPECT_EQ(text("2026-11-27.json.3.bad"), "damaged 3");
 }
 
-TEST_F(FolderOfCounts, AFileUnderTheNameOfAnotherDayIsDamaged) {
+TEST_F(FolderOfCounts, ReportsAFileNamedForAnotherDay) {
     put("2026-11-27.json", write_day_counts(counted(some_day - std::chrono::days(1), 3)));
     const Result<OpenedDay> opened = open_day(folder, some_day);
     ASSERT_TRUE(opened);
     EXPECT_NE(opened->trouble, "");
 }
 
-TEST_F(FolderOfCounts, ReadingTellsWhatIsDamagedAndChangesNothing) {
+TEST_F(FolderOfCounts, ReportsDamagedFilesWithoutChangingThem) {
     ASSERT_TRUE(keep_day(folder, counted(some_day, 3)));
     ASSERT_TRUE(keep_day(folder, counted(some_day - std::chrono::days(2), 5)));
     ASSERT_TRUE(keep_day(folder, counted(std::nullopt, 7)));
@@ -59,7 +59,7 @@ TEST_F(FolderOfCounts, ReadingTellsWhatIsDamagedAndChangesNothing) {
     EXPECT_FALSE(read_counts(folder / "nowhere"));
 }
 
-TEST_F(FolderOfCounts, TheOldestOfMoreThan400DaysGo) {
+TEST_F(FolderOfCounts, RemovesTheOldestOfMoreThan400Days) {
     for (std::size_t k = 0; k < max_days + 5; ++k) {
         ASSERT_TRUE(keep_day(folder, counted(some_day - std::chrono::days(2 * k), 1)));
     }
@@ -76,7 +76,7 @@ TEST_F(FolderOfCounts, TheOldestOfMoreThan400DaysGo) {
     EXPECT_TRUE(has("2001-01-01.txt"));
 }
 
-TEST_F(FolderOfCounts, AFolderThatCannotBeWrittenIsTold) {
+TEST_F(FolderOfCounts, ReportsAMissingFolder) {
     EXPECT_FALSE(keep_day(folder / "nowhere", counted(some_day, 1)));
 }
 

@@ -41,7 +41,7 @@ TEST(CountsTable, SumsDaysHoursAndNames) {
     EXPECT_NE(text.find("between 14:00 and 15:00, and on a Saturday"), std::string::npos) << text;
 }
 
-TEST(CountsTable, WithoutNumbersItSaysSo) {
+TEST(CountsTable, ReportsMissingAndUndatedCounts) {
     EXPECT_EQ(counts_text({}), "No visits have been counted yet.\n");
     EXPECT_NE(counts_plot({}).find("No visits have been counted yet."), std::string::npos);
     EXPECT_EQ(counts_csv({}), "day,kind,name,visits,minutes\n");
@@ -51,7 +51,7 @@ TEST(CountsTable, WithoutNumbersItSaysSo) {
               std::string::npos);
 }
 
-TEST(CountsTable, EachNumberHasItsRow) {
+TEST(CountsTable, WritesARowForEachNumberToCsv) {
     const std::string csv = counts_csv({{day_of(0, 4, 10, "=1+\"2\"")}, {}, {}});
     EXPECT_EQ(csv, "day,kind,name,visits,minutes\n"
                    "2026-11-23,hour,10,4,6.00\n"
@@ -60,14 +60,14 @@ TEST(CountsTable, EachNumberHasItsRow) {
                    "2026-11-23,language,\"en\",2,3.00\n");
 }
 
-TEST(CountsTable, NumbersAreGroupedByThousands) {
+TEST(CountsTable, GroupsNumbersByThousands) {
     EXPECT_EQ(grouped(0), "0");
     EXPECT_EQ(grouped(999), "999");
     EXPECT_EQ(grouped(1000), "1 000");
     EXPECT_EQ(grouped(1234567), "1 234 567");
 }
 
-TEST(CountsPlot, HasEachDayAndEachHour) {
+TEST(CountsPlot, DrawsEachDayAndEachHour) {
     std::vector<DayCounts> days;
     for (int k = 0; k < 40; ++k) {
         days.push_back(day_of(k, k % 7, static_cast<std::size_t>(9 + k % 8), "A <b> & \"c\""));

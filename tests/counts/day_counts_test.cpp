@@ -35,7 +35,7 @@ TEST(DayCounts, AddsUp) {
     EXPECT_EQ(twice.artifacts.size(), 2U);
 }
 
-TEST(DayCounts, WhatWasWrittenIsReadAgain) {
+TEST(DayCounts, RoundTrip) {
     DayCounts counts = example();
     Result<DayCounts> read = parse_day_counts(write_day_counts(counts));
     ASSERT_TRUE(read) << read.error().message;
@@ -47,7 +47,7 @@ TEST(DayCounts, WhatWasWrittenIsReadAgain) {
     EXPECT_TRUE(parse_day_counts(write_day_counts({})));
 }
 
-TEST(DayCounts, ANameThatIsNoLineIsReadAgainAsItWasCounted) {
+TEST(DayCounts, CleansNamesAndReadsThemBack) {
     DayCounts counts;
     counts.add({seconds(1), true, true, true, Sentence("a\nb\x1b[2J"), Sentence("\xff")}, 0);
     const Result<DayCounts> read = parse_day_counts(write_day_counts(counts));
@@ -56,7 +56,7 @@ TEST(DayCounts, ANameThatIsNoLineIsReadAgainAsItWasCounted) {
     EXPECT_EQ(read->artifacts.begin()->first, "a?b?[2J");
 }
 
-TEST(DayCounts, KeepsNoMoreNamesThanItReads) {
+TEST(DayCounts, LimitsTheNumberOfNames) {
     DayCounts counts;
     for (int k = 0; k < 1000; ++k) {
         counts.add({seconds(1), true, true, true, Sentence(std::to_string(k)), Sentence("en")}, 5);
@@ -69,7 +69,7 @@ TEST(DayCounts, KeepsNoMoreNamesThanItReads) {
 }
 
 /// A digit of a time that flips is seen by the sums; one of a visit's number is not, so it is left out here.
-TEST(DayCounts, ADamagedTimeIsTold) {
+TEST(DayCounts, RejectsADamagedTime) {
     const std::string whole = write_day_counts(example());
     std::size_t flipped = 0;
     for (std::size_t at = whole.find("\"ms\": "); at != std::string::npos;
@@ -86,7 +86,7 @@ TEST(DayCounts, ADamagedTimeIsTold) {
     EXPECT_GT(flipped, 20U);
 }
 
-TEST(DayCounts, AFileThatIsCutIsTold) {
+TEST(DayCounts, RejectsTruncatedFiles) {
     const std::string whole = write_day_counts(example());
     for (std::size_t size = 0; size + 2 < whole.size(); ++size) { // the last two bytes are } and a line feed
         const Result<DayCounts> read = parse_day_counts(std::string_view(whole).substr(0, size));
@@ -95,7 +95,7 @@ TEST(DayCounts, AFileThatIsCutIsTold) {
     }
 }
 
-TEST(DayCounts, WhatIsNoDayIsTold) {
+TEST(DayCounts, RejectsInvalidFiles) {
     const auto id_of = [](const char* text) {
         const Result<DayCounts> read = parse_day_counts(text);
         return read ? std::string("read") : std::string(read.error().id.view());

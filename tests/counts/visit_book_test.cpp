@@ -34,7 +34,7 @@ protected:
     DayKeeper keeper_{folder, an_hour_east()};
 };
 
-TEST_F(KeptDays, AreWrittenTenMinutesAfterSomethingWasCounted) {
+TEST_F(KeptDays, AreWrittenTenMinutesAfterAVisit) {
     take(0, seconds(0), friday + hours(10));
     take(0, hours(3), friday + hours(13));
     EXPECT_FALSE(has("2026-11-27.json")) << "nothing was counted";
@@ -62,7 +62,7 @@ TEST_F(KeptDays, BeginAtLocalMidnight) {
     EXPECT_EQ(read->hours[23].visits, 2U);
 }
 
-TEST_F(KeptDays, GoOnAfterAnotherStart) {
+TEST_F(KeptDays, ContinueAfterARestart) {
     ASSERT_TRUE(keep_day(folder, counted(std::chrono::floor<std::chrono::days>(friday), 4)));
     take(1, seconds(0), friday + hours(10));
     EXPECT_EQ(keeper_.visits().today.visits, 5U);
@@ -71,7 +71,7 @@ TEST_F(KeptDays, GoOnAfterAnotherStart) {
     EXPECT_EQ(kept("2026-11-27.json"), 5U);
 }
 
-TEST_F(KeptDays, HaveNoDayWhileTheClockIsWrong) {
+TEST_F(KeptDays, AreUndatedWhileTheClockIsWrong) {
     take(2, seconds(0), sys_seconds(seconds(1000)));
     take(1, minutes(1), friday + hours(10)); // it was set
     keeper_.finish();
@@ -80,7 +80,7 @@ TEST_F(KeptDays, HaveNoDayWhileTheClockIsWrong) {
     EXPECT_FALSE(has("1970-01-01.json"));
 }
 
-TEST_F(KeptDays, TellADamagedFileAndCountOn) {
+TEST_F(KeptDays, ReportADamagedFileAndContinueCounting) {
     put("2026-11-27.json", "damaged");
     take(1, seconds(0), friday + hours(10));
     EXPECT_NE(keeper_.visits().trouble.find("2026-11-27.json.bad"), std::string::npos);
@@ -90,7 +90,7 @@ TEST_F(KeptDays, TellADamagedFileAndCountOn) {
     EXPECT_NE(keeper_.visits().trouble, "") << "the disk needs attention";
 }
 
-TEST_F(KeptDays, AreWrittenLaterWhereTheyCannotBeWrittenNow) {
+TEST_F(KeptDays, AreWrittenAgainAfterAFailure) {
     const std::filesystem::path away = folder.string() + ".away";
     take(3, seconds(0), friday + hours(10));
     std::filesystem::rename(folder, away);
@@ -105,7 +105,7 @@ TEST_F(KeptDays, AreWrittenLaterWhereTheyCannotBeWrittenNow) {
     EXPECT_EQ(keeper_.visits().trouble, "");
 }
 
-TEST_F(FolderOfCounts, TheBookTakesPiecesAndWritesThemAtItsEnd) {
+TEST_F(FolderOfCounts, KeepsTheVisitsOfABookWhenItEnds) {
     constexpr int rounds = 50;
     {
         VisitBook book(folder, [](sys_seconds) { return seconds(0); });

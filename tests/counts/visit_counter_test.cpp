@@ -52,7 +52,7 @@ private:
     bool rests_ = true;
 };
 
-TEST(VisitCounter, AVisitLastsFromTheFirstTouchUntilTheExhibitRests) {
+TEST(VisitCounter, CountsAVisitFromFirstTouchUntilRest) {
     Exhibit exhibit;
     exhibit.stand_idle(seconds(300));
     EXPECT_TRUE(exhibit.pieces.empty()) << "no visitor was present";
@@ -71,7 +71,7 @@ TEST(VisitCounter, AVisitLastsFromTheFirstTouchUntilTheExhibitRests) {
     EXPECT_NEAR(to_seconds(exhibit.length()), 150.0, 0.1);
 }
 
-TEST(VisitCounter, TimeBelongsToWhatIsShown) {
+TEST(VisitCounter, AddsTimeToTheShownArtifactAndLanguage) {
     Exhibit exhibit;
     exhibit.touch();
     exhibit.stand_idle(seconds(10));
@@ -96,7 +96,7 @@ TEST(VisitCounter, TimeBelongsToWhatIsShown) {
     EXPECT_EQ(exhibit.count(&VisitPiece::new_language), 2);
 }
 
-TEST(VisitCounter, TheStaffAreNoVisitors) {
+TEST(VisitCounter, IgnoresStaff) {
     Exhibit exhibit;
     exhibit.touch(); // both buttons: their presses are reported at once
     exhibit.artifact = "Cup";
@@ -112,7 +112,7 @@ TEST(VisitCounter, TheStaffAreNoVisitors) {
     EXPECT_EQ(exhibit.count(&VisitPiece::begins), 1) << "it has rested since";
 }
 
-TEST(VisitCounter, AVisitThatTheStaffInterruptCountsUntilThen) {
+TEST(VisitCounter, EndsAVisitWhenStaffInterrupt) {
     Exhibit exhibit;
     exhibit.touch();
     exhibit.stand_idle(seconds(40));
@@ -122,7 +122,7 @@ TEST(VisitCounter, AVisitThatTheStaffInterruptCountsUntilThen) {
     EXPECT_NEAR(to_seconds(exhibit.length()), 40.0, 0.05);
 }
 
-TEST(VisitCounter, TheEndOfTheRunEndsAVisit) {
+TEST(VisitCounter, EndsAVisitAtTheEndOfTheRun) {
     Exhibit exhibit;
     exhibit.touch();
     exhibit.stand_idle(seconds(2));
@@ -132,7 +132,7 @@ TEST(VisitCounter, TheEndOfTheRunEndsAVisit) {
     EXPECT_NEAR(to_seconds(exhibit.length()), 2.0, 0.05);
 }
 
-TEST(VisitCounter, NothingIsLostHoweverOftenSomebodyPresses) {
+TEST(VisitCounter, LosesNoTimeUnderFrequentTouches) {
     Exhibit exhibit;
     exhibit.touch();
     for (int k = 0; k < 2000; ++k) {

@@ -104,7 +104,7 @@ class States(unittest.TestCase):
         self.assertGreater(place, 0)
         return place
 
-    def test_sound(self):
+    def test_accepts_a_sound_disk(self):
         state = self.look()
         self.assertEqual((state.faults, state.notes, state.version), ([], set(), "0.2.0"))
 
@@ -121,12 +121,12 @@ class States(unittest.TestCase):
             run("mren", "-i", f"{self.disk}@@{self.parts[ESP][0]}", f"::EFI/Linux/frustumscreen_{version}.efi", f"frustumscreen_{version[:5]}+0-5.efi")
         self.assert_fault("no kernel image has a try left")
 
-    def test_one_without_tries_comes_last(self):
+    def test_prefers_a_version_with_tries_left(self):
         run("mren", "-i", f"{self.disk}@@{self.parts[ESP][0]}", "::EFI/Linux/frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+0-3.efi")
         state = self.look()
         self.assertEqual((state.faults, state.version), ([], "0.1.0"))
 
-    def test_an_empty_one_is_ignored(self):
+    def test_ignores_an_empty_kernel_image(self):
         empty = self.folder / "empty"
         empty.touch()
         run("mcopy", "-i", f"{self.disk}@@{self.parts[ESP][0]}", empty, "::EFI/Linux/frustumscreen_0.3.0+3.efi")
@@ -171,7 +171,7 @@ class States(unittest.TestCase):
         state = self.look()
         self.assertEqual((state.faults, state.notes), ([], {"e2fsck -p mended"}))
 
-    def test_older_than_what_was_kept(self):
+    def test_reports_contents_older_than_kept(self):
         for what, words in (("kept", "kept.txt has number 3, not 4 to 4"), ("settings", "kiosk.toml has number 3, not 5 to 5"),
                             ("set", "the set is number 0, not 1 to 1")):
             with self.subTest(what):
@@ -193,7 +193,7 @@ class States(unittest.TestCase):
             disk.write(bytes(13))
         self.assert_fault("lib/frustumscreen-watchdog/faults.json is torn")
 
-    def test_folder_in_a_files_place(self):
+    def test_folder_in_place_of_a_file(self):
         data = self.folder / "with_folder"
         names = {"settings/kept.txt": "kept.txt is damaged", "lib/frustumscreen-watchdog/memory": "memory both slots are torn",
                  "lib/frustumscreen-watchdog/faults": "the watchdog's faults are torn", "machine-id": "the machine-id was",

@@ -49,7 +49,7 @@ class Recorded(unittest.TestCase):
 
 
 class Log(Recorded):
-    def test_by_hand(self):
+    def test_records_and_cuts_a_hand_made_log(self):
         def machine(client, disk):
             client.write(0, sector("a") * 2)
             client.flush()
@@ -74,7 +74,7 @@ class Log(Recorded):
         self.assertEqual(self.left(6), with_fua, "FUA has not arrived, or something else has")
         self.assertLess({"aa......"}, self.left(2, heeds_flushes=False), "a disk that lies loses nothing")
 
-    def test_whole_writes_and_order(self):
+    def test_writes_may_be_torn_or_reordered(self):
         """A command of many sectors is there, not there, or torn; later ones may be there without earlier ones."""
         def machine(client, _disk):
             client.write(0, sector("x") * 4)
@@ -166,7 +166,7 @@ class Writers(Recorded):
         self.keep(True, True)
         self.assertEqual(self.damage(), (0, 0))
 
-    def test_safe_on_a_disk_that_lies(self):
+    def test_loses_data_on_a_disk_that_ignores_flushes(self):
         self.keep(True, True)
         torn, lost = self.damage(heeds_flushes=False)
         self.assertGreater(torn, 0)
@@ -176,7 +176,7 @@ class Writers(Recorded):
         self.keep(False, True)
         self.assertGreater(self.damage()[0], 0)
 
-    def test_without_a_flush_behind_the_name(self):
+    def test_without_a_flush_after_the_name(self):
         self.keep(True, False)
         self.assertGreater(self.damage()[1], 0)
 
@@ -184,7 +184,7 @@ class Writers(Recorded):
 class Table(unittest.TestCase):
     """Compares the reader of partition tables with sfdisk, which writes them."""
 
-    def test_damaged(self):
+    def test_uses_the_second_table_if_the_first_is_damaged(self):
         with tempfile.TemporaryDirectory() as folder:
             disk = pathlib.Path(folder) / "disk"
             with open(disk, "wb") as file:

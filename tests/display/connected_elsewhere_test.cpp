@@ -18,7 +18,7 @@ protected:
     }
 };
 
-TEST_F(ConnectedElsewhere, ListsWhatIsConnectedToEachCard) {
+TEST_F(ConnectedElsewhere, ListsTheConnectedConnectorsOfAllCards) {
     EXPECT_TRUE(connected_connectors(folder).empty());
     EXPECT_TRUE(connected_connectors(folder / "nowhere").empty());
     say("card1-HDMI-A-1", "connected");
@@ -30,7 +30,7 @@ TEST_F(ConnectedElsewhere, ListsWhatIsConnectedToEachCard) {
     EXPECT_EQ(connected_connectors(folder), (std::vector<std::string>{"card0-DP-1"}));
 }
 
-TEST_F(ConnectedElsewhere, ACardHasItsOwnConnectorsAlone) {
+TEST_F(ConnectedElsewhere, MatchesConnectorsToTheirOwnCard) {
     const std::vector<std::string> connected{"card1-DP-1", "card11-HDMI-A-1"};
     EXPECT_TRUE(has_connected(connected, "/dev/dri/card1", ""));
     EXPECT_TRUE(has_connected(connected, "/dev/dri/card1", "DP-1"));

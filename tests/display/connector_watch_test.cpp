@@ -69,7 +69,7 @@ CardSeen next_news(ConnectorWatch& watch) {
     }
 }
 
-TEST(ConnectorWatch, HandsOverWhatIsThereAndThenWhatChanges) {
+TEST(ConnectorWatch, ReportsTheConnectorsAndTheirChanges) {
     Card card;
     auto hotplug = std::make_unique<ScriptedHotplug>();
     ScriptedHotplug& events = *hotplug;
@@ -88,7 +88,7 @@ TEST(ConnectorWatch, HandsOverWhatIsThereAndThenWhatChanges) {
         << "plugged again is news even where nothing changed";
 }
 
-TEST(ConnectorWatch, AsksALitProjectorOnlyWhenSomethingWasPlugged) {
+TEST(ConnectorWatch, ProbesALitProjectorOnlyAfterAHotplugEvent) {
     Card card;
     auto hotplug = std::make_unique<ScriptedHotplug>();
     ScriptedHotplug& events = *hotplug;
@@ -109,7 +109,7 @@ TEST(ConnectorWatch, AsksALitProjectorOnlyWhenSomethingWasPlugged) {
     EXPECT_EQ(card.thorough_looks, 2);
 }
 
-TEST(ConnectorWatch, ACardThatIsBeingAskedHoldsUpNobody) {
+TEST(ConnectorWatch, DoesNotBlockWhileTheCardIsProbed) {
     std::mutex slow;
     std::condition_variable answered;
     bool answer = false;

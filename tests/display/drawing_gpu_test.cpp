@@ -36,7 +36,7 @@ protected:
     KmsCard card_;
 };
 
-TEST_F(Drawing, TheCardItselfDrawsWhereItCan) {
+TEST_F(Drawing, UsesTheCardsOwnGpuIfItCanDraw) {
     desk.card.renderer = "Mesa Intel(R) UHD Graphics";
     kernel.add_gpu({"/dev/dri/renderD128", "Mesa Intel(R) UHD Graphics", &desk.card});
     kernel.add_gpu({"/dev/dri/renderD129", "NV136", nullptr});
@@ -44,7 +44,7 @@ TEST_F(Drawing, TheCardItselfDrawsWhereItCan) {
     EXPECT_EQ(opened(), 1) << "the card's alone";
 }
 
-TEST_F(Drawing, AnotherGpuDrawsForACardThatOnlyShows) {
+TEST_F(Drawing, UsesAnotherGpuForACardThatCannotDraw) {
     kernel.add_gpu({"/dev/dri/renderD128", "never asked", &desk.card});
     kernel.add_gpu({"", "has no render node", nullptr});
     kernel.add_gpu({"/dev/dri/renderD129", "llvmpipe (LLVM 15.0.6, 256 bits)", nullptr});
@@ -53,32 +53,32 @@ TEST_F(Drawing, AnotherGpuDrawsForACardThatOnlyShows) {
     EXPECT_EQ(opened(), 3);
 }
 
-TEST_F(Drawing, AGpuThatCannotBeOpenedIsSkipped) {
+TEST_F(Drawing, SkipsAGpuThatCannotBeOpened) {
     kernel.add_gpu({"/dev/dri/renderD129", "NV136", nullptr});
     kernel.fail_always("open", EACCES);
     EXPECT_TRUE(holds(draws(true), "llvmpipe")) << "the processor draws into the card's memory";
 }
 
-TEST_F(Drawing, WithoutAGpuTheProcessorDrawsIntoTheCardsMemory) {
+TEST_F(Drawing, FallsBackToTheProcessorInTheCardsMemory) {
     EXPECT_TRUE(holds(draws(true), "llvmpipe"));
     kernel.add_gpu({"/dev/dri/renderD129", "softpipe", nullptr});
     EXPECT_TRUE(holds(draws(true), "llvmpipe")) << "no processor is better than another";
 }
 
-TEST_F(Drawing, WithoutGbmTheProcessorDrawsWithoutTheCard) {
+TEST_F(Drawing, DrawsWithoutTheCardsMemoryIfGbmIsMissing) {
     desk.card.has_gbm = false;
     EXPECT_TRUE(holds(draws(false), "llvmpipe"));
     kernel.add_gpu({"/dev/dri/renderD129", "NV136", nullptr});
     EXPECT_TRUE(holds(draws(false), "NV136"));
 }
 
-TEST_F(Drawing, WithoutEglItSaysWhatToInstall) {
+TEST_F(Drawing, NamesThePackageToInstallWithoutEgl) {
     kernel.fail_always("eglInitialize", EINVAL);
     EXPECT_TRUE(holds(draws(false), "display: EGL does not start on the graphics card")) << draws(false);
     EXPECT_TRUE(holds(draws(false), "install libegl1")) << draws(false);
 }
 
-TEST_F(Drawing, AContextThatIsLostOnTheWayIsAnErrorOfTheProgram) {
+TEST_F(Drawing, ReportsAnInternalErrorIfTheContextIsLost) {
     EXPECT_TRUE(holds(draws(true), "llvmpipe"));
     const auto begin = std::find(kernel.calls().rbegin(), kernel.calls().rend(), "gbm_create_device").base();
     const auto steps =
@@ -148,7 +148,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Kms, Scanout, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "Gbm" : "Dumb"; });
 
-TEST_P(Scanout, TwoFramebuffersTakeThePicture) {
+TEST_P(Scanout, CopiesThePictureIntoTwoFramebuffers) {
     const std::unique_ptr<CardScreen> screen = CardScreen::create(card_.file(), picture_size).value();
     EXPECT_EQ(screen->gpu().card_memory() != nullptr, GetParam());
     paint(*screen);
@@ -169,7 +169,7 @@ TEST_P(Scanout, TwoFramebuffersTakeThePicture) {
     }
 }
 
-TEST_P(Scanout, WhatTheCardLacksIsNamed) {
+TEST_P(Scanout, NamesTheResourceThatTheCardLacks) {
     EXPECT_EQ(lacks(), "");
     EXPECT_EQ(lacks({32, 24}), "") << "another mode than the picture's";
     kernel.fail_always("drmModeAddFB", EINVAL);
@@ -190,7 +190,7 @@ TEST_P(Scanout, WhatTheCardLacksIsNamed) {
     }
 }
 
-TEST_P(Scanout, WithoutTheSecondContextNothingIsCopied) {
+TEST_P(Scanout, CopiesNothingWithoutTheSecondContext) {
     const std::unique_ptr<CardScreen> screen = CardScreen::create(card_.file(), picture_size).value();
     paint(*screen);
     const std::unique_ptr<ScanoutPair> pair = screen->make_pair(picture_size).value();
@@ -205,7 +205,7 @@ TEST_P(Scanout, WithoutTheSecondContextNothingIsCopied) {
 
 /// If any one call fails once, there are either framebuffers that show the picture, or a sentence that names
 /// the failure; and nothing leaks.
-TEST_P(Scanout, AnyCallMayFailOnce) {
+TEST_P(Scanout, RecoversFromOrReportsAnySingleFailedCall) {
     const auto once = [](std::size_t call, int error) {
         FakeKernel own;
         CardOnDesk table(own.add_card(card_path));

@@ -9,7 +9,7 @@ protected:
     EyeOrderTest() { desk.card.plug(desk.hdmi, fast_modes()); }
 };
 
-TEST_F(EyeOrderTest, EachRefreshShowsTheEyeOfItsNumber) {
+TEST_F(EyeOrderTest, EachRefreshShowsTheEyeOfItsParity) {
     for (const std::uint32_t begin : {0U, 1U, 0xFFFFFFC0U}) { // the kernel's number in an event has 32 bits
         desk.card.refreshes = begin;
         Sitting sitting(desk, 1);
@@ -25,7 +25,7 @@ TEST_F(EyeOrderTest, EachRefreshShowsTheEyeOfItsNumber) {
     EXPECT_EQ(desk.card.removed_while_shown(), 3) << "at the end of each";
 }
 
-TEST_F(EyeOrderTest, TheTurnsGoOnWhileNothingNewIsDrawn) {
+TEST_F(EyeOrderTest, AlternatesWhileNothingNewIsDrawn) {
     Sitting sitting(desk, 2);
     sitting.frames(5);
     const int before = sitting.eyes().kept;
@@ -37,7 +37,7 @@ TEST_F(EyeOrderTest, TheTurnsGoOnWhileNothingNewIsDrawn) {
     EXPECT_TRUE(sitting.in_order());
 }
 
-TEST_F(EyeOrderTest, AFrameThatTakesLongKeepsTheTurns) {
+TEST_F(EyeOrderTest, AlternatesDuringASlowFrame) {
     Sitting sitting(desk, 3);
     sitting.frames(5);
     const int before = sitting.eyes().repeated;
@@ -48,7 +48,7 @@ TEST_F(EyeOrderTest, AFrameThatTakesLongKeepsTheTurns) {
     EXPECT_EQ(sitting.eyes().wrongs, "");
 }
 
-TEST_F(EyeOrderTest, ThePictureIsLitAtTheToldTime) {
+TEST_F(EyeOrderTest, ShowsThePictureAtThePredictedTime) {
     Sitting sitting(desk, 4);
     sitting.frames(20);
     for (int k = 0; k < 50; ++k) {
@@ -58,7 +58,7 @@ TEST_F(EyeOrderTest, ThePictureIsLitAtTheToldTime) {
     }
 }
 
-TEST_F(EyeOrderTest, AThreadThatWakesLateCostsRefreshesAndNeverTheOrder) {
+TEST_F(EyeOrderTest, LateWakeUpsRepeatRefreshesButKeepTheOrder) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         Sitting sitting(desk, seed);
         sitting.frames(5);
@@ -72,7 +72,7 @@ TEST_F(EyeOrderTest, AThreadThatWakesLateCostsRefreshesAndNeverTheOrder) {
     }
 }
 
-TEST_F(EyeOrderTest, AFlipThatTheCardShowsLateIsFollowedByTheEyeOfTheNextRefresh) {
+TEST_F(EyeOrderTest, RestoresTheOrderAfterALateFlip) {
     Sitting sitting(desk, 5);
     sitting.frames(5);
     for (const int late : {1, 2, 3, 5}) {
@@ -85,7 +85,7 @@ TEST_F(EyeOrderTest, AFlipThatTheCardShowsLateIsFollowedByTheEyeOfTheNextRefresh
     EXPECT_EQ(sitting.eyes().wrongs, "");
 }
 
-TEST_F(EyeOrderTest, AReportThatIsLostIsNotWaitedForLong) {
+TEST_F(EyeOrderTest, RecoversQuicklyFromALostFlipReport) {
     Sitting sitting(desk, 6);
     sitting.frames(5);
     for (const int lost : {1, 2, 4}) {
@@ -99,7 +99,7 @@ TEST_F(EyeOrderTest, AReportThatIsLostIsNotWaitedForLong) {
     EXPECT_EQ(sitting.eyes().wrongs, "");
 }
 
-TEST_F(EyeOrderTest, ALatePictureIsWaitedForAlsoIfTheNextFlipFails) {
+TEST_F(EyeOrderTest, WaitsForALatePictureEvenIfTheNextFlipFails) {
     Sitting sitting(desk, 11);
     sitting.frames(5);
     sitting.frame(std::chrono::milliseconds(15));
@@ -115,7 +115,7 @@ TEST_F(EyeOrderTest, ALatePictureIsWaitedForAlsoIfTheNextFlipFails) {
     EXPECT_EQ(sitting.eyes().wrongs, "");
 }
 
-TEST_F(EyeOrderTest, SleepsAndWakesInOrder) {
+TEST_F(EyeOrderTest, KeepsTheOrderOverSleepAndWake) {
     Sitting sitting(desk, 7);
     sitting.frames(5);
     for (int k = 0; k < 4; ++k) {
@@ -144,7 +144,7 @@ void expect_order_after_plugging(CardOnDesk& desk, Sitting& sitting) {
     EXPECT_TRUE(has_words(sitting.state(), "each eye gets 60 Hz")) << sitting.state();
 }
 
-TEST_F(EyeOrderTest, AfterAnyHistoryThatEndsWellTheEyesAreInOrder) {
+TEST_F(EyeOrderTest, RestoresTheOrderAfterRandomFaults) {
     int refreshes = 0;
     int starts = 0;
     for (unsigned seed = 0; seed < 60; ++seed) {
@@ -211,7 +211,7 @@ TEST_F(EyeOrderTest, AfterAnyHistoryThatEndsWellTheEyesAreInOrder) {
 
 /// If any one call fails once, the eyes are in order in the end, or a sentence says why they cannot be or why the program
 /// must end.
-TEST_F(EyeOrderTest, AnyCallMayFailOnceInTurn) {
+TEST_F(EyeOrderTest, RecoversFromOrReportsAnySingleFailedCall) {
     struct Outcome {
         std::vector<std::string> calls;
         std::string wrongs;
@@ -266,7 +266,7 @@ TEST_F(EyeOrderTest, AnyCallMayFailOnceInTurn) {
     EXPECT_GT(runs, undisturbed.calls.size());
 }
 
-TEST_F(EyeOrderTest, WhereTheEyesCannotTakeTurnsTheLeftOnesPictureIsShownAndTheCardNamed) {
+TEST_F(EyeOrderTest, ShowsTheLeftEyeIfTheCardCannotAlternate) {
     const auto expect_the_left_eye = [this](const std::string& why) {
         Sitting sitting(desk, 8);
         sitting.frames(20);
@@ -289,7 +289,7 @@ TEST_F(EyeOrderTest, WhereTheEyesCannotTakeTurnsTheLeftOnesPictureIsShownAndTheC
     expect_the_left_eye("its refreshes have another clock");
 }
 
-TEST_F(EyeOrderTest, WithoutAtomicCommitsTheUpperHalfIsShown) {
+TEST_F(EyeOrderTest, ShowsTheUpperHalfWithoutAtomicCommits) {
     desk.card.atomic = false;
     desk.card.flips_at_once = false;
     const OutputRequest request = wish_for_turns();
@@ -313,7 +313,7 @@ TEST_F(EyeOrderTest, WithoutAtomicCommitsTheUpperHalfIsShown) {
     EXPECT_TRUE(has_words(presenter.state(), "/dev/dri/fake0 cannot show")) << presenter.state();
 }
 
-TEST_F(EyeOrderTest, ASlowModeIsTakenOnlyWithoutAFastOneAndItsNumberIsTold) {
+TEST_F(EyeOrderTest, UsesASlowModeOnlyWithoutAFastOneAndReportsItsRate) {
     desk.card.plug(desk.hdmi, {kernel_mode(320, 200, 60.0, true)});
     Sitting sitting(desk, 9);
     sitting.frames(30);
@@ -333,7 +333,7 @@ TEST_F(EyeOrderTest, ASlowModeIsTakenOnlyWithoutAFastOneAndItsNumberIsTold) {
     EXPECT_EQ(sitting.eyes().wrongs, "");
 }
 
-TEST_F(EyeOrderTest, InAModeOfAnotherSizeEachHalfHasItsPlace) {
+TEST_F(EyeOrderTest, PlacesEachHalfInAModeOfAnotherSize) {
     desk.card.plug(desk.hdmi, {kernel_mode(256, 192, 120.0, true)});
     for (const bool scales : {true, false}) {
         desk.card.scales = scales;

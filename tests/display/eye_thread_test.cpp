@@ -104,7 +104,7 @@ protected:
     std::optional<EyeThread> thread_;
 };
 
-TEST_F(EyeThreadTest, EachPictureIsShownAndEachRefreshHasItsEye) {
+TEST_F(EyeThreadTest, ShowsEachPictureAndAlternatesTheEyes) {
     make();
     light(1);
     for (FramebufferId picture = 2; picture < 500; ++picture) {
@@ -123,7 +123,7 @@ TEST_F(EyeThreadTest, EachPictureIsShownAndEachRefreshHasItsEye) {
     EXPECT_EQ(newest, 499U);
 }
 
-TEST_F(EyeThreadTest, NothingIsFlippedBeforeALightAndAfterADarkening) {
+TEST_F(EyeThreadTest, FlipsNothingBeforeLightingAndAfterDarkening) {
     make();
     EXPECT_FALSE(thread_->wait_flip(std::chrono::milliseconds(20)));
     light(1);

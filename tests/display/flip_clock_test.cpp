@@ -9,7 +9,7 @@ MonotonicTime at_us(std::int64_t us) {
     return from_microseconds(us);
 }
 
-TEST(FlipClock, WithoutAFlipThereIsNoGrid) {
+TEST(FlipClock, HasNoGridBeforeTheFirstFlip) {
     const FlipClock clock(100.0);
     EXPECT_FALSE(clock.known());
     EXPECT_EQ(clock.first_after(at_us(5)), at_us(5));
@@ -27,7 +27,7 @@ TEST(FlipClock, TheFirstRefreshAfterATimeIsLaterThanIt) {
     EXPECT_EQ(clock.first_after(at_us(985'000)), at_us(990'000));
 }
 
-TEST(FlipClock, FramesBeginOnRefreshesWhateverTheFlipsJitter) {
+TEST(FlipClock, FramesBeginOnRefreshesDespiteJitter) {
     FlipClock clock(100.0);
     MonotonicTime frame = at_us(1'000'000);
     clock.flipped(frame);
@@ -40,7 +40,7 @@ TEST(FlipClock, FramesBeginOnRefreshesWhateverTheFlipsJitter) {
     }
 }
 
-TEST(FlipClock, ASlowerExhibitTakesEverySoManyRefreshes) {
+TEST(FlipClock, ASlowerExhibitSkipsRefreshes) {
     FlipClock clock(60.0);
     clock.flipped(at_us(0));
     EXPECT_NEAR(to_seconds(clock.next_frame(at_us(0), Nanoseconds(33'333'333)).time_since_epoch()),

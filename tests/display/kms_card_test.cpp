@@ -25,7 +25,7 @@ bool holds(std::string_view text, std::string_view words) {
 
 using KmsCardTest = Desk;
 
-TEST_F(KmsCardTest, SeesWhatIsConnected) {
+TEST_F(KmsCardTest, ListsTheConnectors) {
     desk.card.connector(desk.other).cable = DRM_MODE_UNKNOWNCONNECTION;
     desk.card.add_connector(DRM_MODE_CONNECTOR_eDP, 1, {});
     desk.card.add_connector(DRM_MODE_CONNECTOR_WRITEBACK, 1, {});
@@ -54,7 +54,7 @@ TEST_F(KmsCardTest, SeesWhatIsConnected) {
     EXPECT_EQ(seen.connectors[3].name, "Unknown-1");
 }
 
-TEST_F(KmsCardTest, AskingThoroughlyFindsWhatWasPluggedSilently) {
+TEST_F(KmsCardTest, AThoroughLookFindsChangesWithoutAnEvent) {
     const Result<KmsCard> card = KmsCard::open(card_path, {});
     ASSERT_TRUE(card);
     EXPECT_EQ(card->look(false).connectors[0].plugged, Plugged::No) << "the projector was not asked yet";
@@ -106,7 +106,7 @@ TEST_F(KmsCardTest, OnlyEyesInTurnHaveAThread) {
     EXPECT_EQ(threads_now(), before + 1);
 }
 
-TEST_F(KmsCardTest, ACardWithoutAtomicCommitsIsDrivenByTheOlderCalls) {
+TEST_F(KmsCardTest, ReportsACardWithoutAtomicCommits) {
     desk.card.atomic = false;
     EXPECT_FALSE(KmsCard::open(card_path, {})->is_atomic());
     desk.card.atomic = true;
@@ -114,7 +114,7 @@ TEST_F(KmsCardTest, ACardWithoutAtomicCommitsIsDrivenByTheOlderCalls) {
     EXPECT_FALSE(KmsCard::open(card_path, {})->is_atomic());
 }
 
-TEST_F(KmsCardTest, WhyACardCannotBeOpenedIsSaid) {
+TEST_F(KmsCardTest, ReportsWhyACardCannotBeOpened) {
     for (const int error : {EACCES, EPERM}) {
         kernel.fail_always("open", error);
         const Result<KmsCard> refused = KmsCard::open("fake0", {});
@@ -138,7 +138,7 @@ TEST_F(KmsCardTest, WhyACardCannotBeOpenedIsSaid) {
     EXPECT_TRUE(holds(blind.error().message, "/dev/dri/blind has no connectors")) << blind.error().message;
 }
 
-TEST_F(KmsCardTest, TheFirstProgramThatOpensTheCardHoldsItsScreen) {
+TEST_F(KmsCardTest, TheFirstFileThatIsOpenedHoldsTheScreen) {
     const Result<KmsCard> first = KmsCard::open(card_path, {});
     const Result<KmsCard> second = KmsCard::open(card_path, {});
     ASSERT_TRUE(first && second);
@@ -148,7 +148,7 @@ TEST_F(KmsCardTest, TheFirstProgramThatOpensTheCardHoldsItsScreen) {
     EXPECT_TRUE(make_kms_device(*first)->become_master());
 }
 
-TEST_F(KmsCardTest, ACardThatWasGoneIsBackWhenItCanBeOpened) {
+TEST_F(KmsCardTest, ARemovedCardIsBackWhenItCanBeOpened) {
     const Result<KmsCard> card = KmsCard::open(card_path, {});
     ASSERT_TRUE(card);
     desk.card.gone = true;
@@ -159,7 +159,7 @@ TEST_F(KmsCardTest, ACardThatWasGoneIsBackWhenItCanBeOpened) {
     EXPECT_EQ(card->look(true).state, CardState::Back);
 }
 
-TEST_F(KmsCardTest, ACardCanBeMoved) {
+TEST_F(KmsCardTest, IsMovable) {
     KmsCard card = KmsCard::open(card_path, {}).value();
     kernel.add_card("/dev/dri/fake1").add_crtc();
     kernel.card_at("/dev/dri/fake1")->add_connector(DRM_MODE_CONNECTOR_VGA, 1, {});
@@ -203,12 +203,12 @@ protected:
 private:
 };
 
-TEST_F(SeveralCards, WithoutAnyTheDriverIsAskedFor) {
+TEST_F(SeveralCards, ReportsThatThereIsNoCard) {
     EXPECT_TRUE(holds(opened(), "no graphics card in " + cards())) << opened();
     EXPECT_TRUE(holds(KmsCard::open("", {}, cards() + "/none").error().message, "no graphics card"));
 }
 
-TEST_F(SeveralCards, TheOneWithTheProjectorIsOpened) {
+TEST_F(SeveralCards, OpensTheCardWithTheProjector) {
     CardOnDesk& first = add("card0");
     EXPECT_EQ(opened(), "card0");
     CardOnDesk& second = add("card1");
@@ -223,7 +223,7 @@ TEST_F(SeveralCards, TheOneWithTheProjectorIsOpened) {
     EXPECT_EQ(KmsCard::open("card1", {}, cards())->path(), path("card1")) << "the one that is named";
 }
 
-TEST_F(SeveralCards, OneThatCannotBeOpenedIsSkippedAndElseSaysWhy) {
+TEST_F(SeveralCards, SkipsACardThatCannotBeOpenedElseReportsWhy) {
     add("card0").card.gone = true;
     add("card1");
     EXPECT_EQ(opened(), "card1");
@@ -231,7 +231,7 @@ TEST_F(SeveralCards, OneThatCannotBeOpenedIsSkippedAndElseSaysWhy) {
     EXPECT_TRUE(holds(opened(), "card0 cannot be opened: Permission denied")) << opened();
 }
 
-TEST_F(SeveralCards, OneThatWasGoneMayBeBackAsAnother) {
+TEST_F(SeveralCards, ARemovedCardMayReturnUnderAnotherName) {
     add("card0");
     const Result<KmsCard> card = KmsCard::open("", {}, cards());
     ASSERT_TRUE(card);
@@ -243,7 +243,7 @@ TEST_F(SeveralCards, OneThatWasGoneMayBeBackAsAnother) {
     EXPECT_FALSE(named) << "the one that is named is gone all the same";
 }
 
-TEST_F(SeveralCards, AProjectorElsewhereIsSeenOnceAndOnlyWhereNothingCanBeLit) {
+TEST_F(SeveralCards, ReportsAProjectorElsewhereOnlyIfTheCardHasNone) {
     CardOnDesk& own = add("card0");
     CardOnDesk& second = add("card1");
     own.card.unplug(own.hdmi);
@@ -264,7 +264,7 @@ TEST_F(SeveralCards, AProjectorElsewhereIsSeenOnceAndOnlyWhereNothingCanBeLit) {
     EXPECT_EQ(state(), CardState::There);
 }
 
-TEST_F(SeveralCards, AnotherIsOpenedOnlyWhenItsConnectorsChange) {
+TEST_F(SeveralCards, ReopensAnotherCardOnlyWhenItsConnectorsChange) {
     add("card0");
     CardOnDesk& second = add("card1");
     second.card.plug(second.hdmi, {}); // connected, but without a mode

@@ -60,7 +60,7 @@ protected:
     std::unique_ptr<KmsDevice> kms_;
 };
 
-TEST_P(Device, LightsTheProjectorAndNothingElse) {
+TEST_P(Device, LightsOnlyTheProjector) {
     light_the_other();
     const FramebufferId picture = framebuffer();
     EXPECT_EQ(light(picture), KmsAnswer::Done);
@@ -72,7 +72,7 @@ TEST_P(Device, LightsTheProjectorAndNothingElse) {
     EXPECT_EQ(kms_->shortcoming(), "");
 }
 
-TEST_P(Device, TwoFramebuffersTakeTurns) {
+TEST_P(Device, AlternatesTwoFramebuffers) {
     const std::array<FramebufferId, 2> pictures{framebuffer(), framebuffer()};
     ASSERT_EQ(light(pictures[0]), KmsAnswer::Done);
     EXPECT_EQ(done(), std::vector<std::uint64_t>{1});
@@ -87,7 +87,7 @@ TEST_P(Device, TwoFramebuffersTakeTurns) {
     EXPECT_EQ(desk.card.removed_while_shown(), 0);
 }
 
-TEST_P(Device, AFlipHasTheCardsTime) {
+TEST_P(Device, ReportsTheCardsTimeOfAFlip) {
     const FramebufferId picture = lit();
     ASSERT_EQ(kms_->flip(picture, 2), KmsAnswer::Done);
     desk.card.time_us = 7'000'000;
@@ -97,7 +97,7 @@ TEST_P(Device, AFlipHasTheCardsTime) {
     EXPECT_EQ(flipped->time, from_microseconds(7'016'667));
 }
 
-TEST_P(Device, ACardWhoseClockIsAnotherGetsTheProgramsTime) {
+TEST_P(Device, UsesItsOwnClockIfTheCardsIsNotMonotonic) {
     desk.card.monotonic = false;
     kms_ = make_kms_device(*card_);
     const FramebufferId picture = lit();
@@ -110,7 +110,7 @@ TEST_P(Device, ACardWhoseClockIsAnotherGetsTheProgramsTime) {
     EXPECT_FALSE(kms_->flips_keep_time());
 }
 
-TEST_P(Device, WithoutVerticalBlanksFlipsKeepNoTime) {
+TEST_P(Device, FlipsKeepNoTimeWithoutVerticalBlanks) {
     desk.card.vertical_blanks = false;
     const FramebufferId picture = lit();
     ASSERT_EQ(kms_->flip(picture, 2), KmsAnswer::Done);
@@ -118,7 +118,7 @@ TEST_P(Device, WithoutVerticalBlanksFlipsKeepNoTime) {
     EXPECT_FALSE(kms_->flips_keep_time());
 }
 
-TEST_P(Device, WhatIsNoFlipOfOursIsIgnored) {
+TEST_P(Device, IgnoresForeignAndMalformedEvents) {
     lit();
     drm_event_vblank event{};
     event.base = {DRM_EVENT_VBLANK, sizeof event};
@@ -141,7 +141,7 @@ TEST_P(Device, WhatIsNoFlipOfOursIsIgnored) {
     EXPECT_EQ(done(), (std::vector<std::uint64_t>{77, 77}));
 }
 
-TEST_P(Device, AFileThatOnlyEverEndsIsNotWaitedForLongerThanAsked) {
+TEST_P(Device, WaitEndsWhenTheEventFileIsClosed) {
     ASSERT_EQ(::shutdown(kernel.file(card_->file())->events, SHUT_WR), 0);
     EXPECT_FALSE(kms_->wait_flip(Nanoseconds(0)));
     EXPECT_FALSE(kms_->wait_flip(std::chrono::milliseconds(1)));
@@ -162,7 +162,7 @@ TEST_P(Device, DarkensAndLightsAgain) {
     EXPECT_EQ(done(), std::vector<std::uint64_t>{3});
 }
 
-TEST_P(Device, AModeThatIsTooFastIsRefusedAndAnotherIsTaken) {
+TEST_P(Device, RefusesAModeThatIsTooFastAndTakesASlowerOne) {
     const FramebufferId large = framebuffer();
     const FramebufferId small = framebuffer(160, 120);
     desk.card.max_khz = kernel_mode(160, 120, 60.0).clock;
@@ -172,7 +172,7 @@ TEST_P(Device, AModeThatIsTooFastIsRefusedAndAnotherIsTaken) {
     EXPECT_EQ(shown(), small);
 }
 
-TEST_P(Device, WhatTheKernelSaysIsAnswered) {
+TEST_P(Device, MapsKernelErrorsToAnswers) {
     const FramebufferId picture = framebuffer();
     const std::string call = GetParam() ? "drmModeAtomicCommit" : "drmModeSetCrtc";
     const std::string flip = GetParam() ? "drmModeAtomicCommit" : "drmModePageFlip";
@@ -204,7 +204,7 @@ TEST_P(Device, WhatTheKernelSaysIsAnswered) {
     }
 }
 
-TEST_P(Device, ACardThatWasPulledOutIsGone) {
+TEST_P(Device, ReportsARemovedCardAsGone) {
     const FramebufferId picture = lit();
     desk.card.gone = true;
     EXPECT_EQ(kms_->flip(picture, 2), KmsAnswer::Gone);
@@ -213,7 +213,7 @@ TEST_P(Device, ACardThatWasPulledOutIsGone) {
     desk.card.gone = false;
 }
 
-TEST_P(Device, AFramebufferThatIsRemovedIsNoLongerShown) {
+TEST_P(Device, ARemovedFramebufferIsNoLongerShown) {
     lit();
     buffers_.clear();
     EXPECT_EQ(shown(), 0U);
@@ -221,7 +221,7 @@ TEST_P(Device, AFramebufferThatIsRemovedIsNoLongerShown) {
         << "drm_mode_page_flip_ioctl has EBUSY for it";
 }
 
-TEST_P(Device, ARangeThatTheDriverKeepsIsToldWhereItMatters) {
+TEST_P(Device, ReportsAFixedColourRangeOnlyInATelevisionsMode) {
     desk.card.fixed = {"Broadcast RGB"};
     EXPECT_EQ(light(framebuffer(1280, 720), 1280, 720), KmsAnswer::Done) << "a lit screen is worth more";
     EXPECT_NE(kms_->shortcoming().find("HDMI's range"), std::string_view::npos) << kms_->shortcoming();
@@ -230,7 +230,7 @@ TEST_P(Device, ARangeThatTheDriverKeepsIsToldWhereItMatters) {
     EXPECT_EQ(kms_->shortcoming(), "") << "not a television's mode";
 }
 
-TEST_P(Device, AConnectorThatNothingCanFeedIsRefused) {
+TEST_P(Device, RefusesAConnectorWithoutACrtcOrThatIsUnknown) {
     const std::uint32_t orphan = desk.card.add_connector(DRM_MODE_CONNECTOR_VGA, 1, {}).id;
     const FramebufferId picture = framebuffer();
     EXPECT_EQ(kms_->light(orphan, a_mode(320, 200, 60.0), {picture, {320, 200}, {0, 0, 320, 200}}, 1),
@@ -239,7 +239,7 @@ TEST_P(Device, AConnectorThatNothingCanFeedIsRefused) {
               KmsAnswer::Refused);
 }
 
-TEST_P(Device, APictureOfAnotherSizeIsScaledByTheCardOrRefused) {
+TEST_P(Device, ScalesAPictureOfAnotherSizeOrRefusesIt) {
     const FramebufferId picture = framebuffer();
     const ScannedOut scaled{picture, {320, 200}, {0, 20, 256, 160}};
     EXPECT_EQ(kms_->light(desk.hdmi, a_mode(256, 192, 60.0), scaled, 1), KmsAnswer::Refused);
@@ -254,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(Kms, Device, testing::Bool(),
 using AtomicDevice = Device;
 INSTANTIATE_TEST_SUITE_P(Kms, AtomicDevice, testing::Values(true));
 
-TEST_P(AtomicDevice, WhatAnEarlierProgramLeftOnThePlaneIsReset) {
+TEST_P(AtomicDevice, ResetsThePropertiesThatAnEarlierProgramLeft) {
     const FramebufferId picture = framebuffer();
     desk.card.set(desk.crtcs[0], "VRR_ENABLED", 1);
     desk.card.set(desk.hdmi, "link-status", 1);
@@ -267,7 +267,7 @@ TEST_P(AtomicDevice, WhatAnEarlierProgramLeftOnThePlaneIsReset) {
     EXPECT_EQ(desk.card.value(desk.hdmi, "link-status"), 0U);
 }
 
-TEST_P(AtomicDevice, AnOverlayOfAnEarlierProgramIsTurnedOff) {
+TEST_P(AtomicDevice, TurnsOffAnOverlayOfAnEarlierProgram) {
     const FramebufferId picture = lit();
     desk.card.set(desk.overlay, "FB_ID", picture);
     desk.card.set(desk.overlay, "CRTC_ID", desk.crtcs[0]);
@@ -275,7 +275,7 @@ TEST_P(AtomicDevice, AnOverlayOfAnEarlierProgramIsTurnedOff) {
     EXPECT_EQ(desk.card.value(desk.overlay, "CRTC_ID"), 0U);
 }
 
-TEST_P(AtomicDevice, WithoutAPropertyThatItNeedsTheCardIsRefused) {
+TEST_P(AtomicDevice, RefusesACardThatLacksARequiredProperty) {
     const FramebufferId picture = framebuffer();
     const auto lights_without = [&](std::uint32_t object, const std::string& name) {
         const FakeProperty property = *desk.card.property(desk.card.id_of(object, name));
@@ -301,7 +301,7 @@ TEST_P(AtomicDevice, WithoutAPropertyThatItNeedsTheCardIsRefused) {
     EXPECT_TRUE(lights_without(desk.planes[0], "type")) << "the other CRTC has a primary plane too";
 }
 
-TEST_P(AtomicDevice, AFlipMayShowOtherRowsOfAFramebuffer) {
+TEST_P(AtomicDevice, FlipsToOtherRowsOfAFramebuffer) {
     const FramebufferId both = framebuffer(320, 400);
     EXPECT_EQ(kms_->flip_from(200, both, 1), KmsAnswer::Refused) << "nothing is lit";
     ASSERT_EQ(light(both), KmsAnswer::Done);
@@ -320,7 +320,7 @@ TEST_P(AtomicDevice, AFlipMayShowOtherRowsOfAFramebuffer) {
     static_cast<void>(done());
 }
 
-TEST_P(Device, AFlipTellsTheNumberOfItsRefresh) {
+TEST_P(Device, ReportsTheRefreshNumberOfAFlip) {
     const FramebufferId picture = lit();
     desk.card.refreshes = 40;
     ASSERT_EQ(kms_->flip(picture, 2), KmsAnswer::Done);
@@ -332,7 +332,7 @@ TEST_P(Device, AFlipTellsTheNumberOfItsRefresh) {
     EXPECT_FALSE(kms_->in_turn());
 }
 
-TEST_P(AtomicDevice, WithoutAPlaneOfItsFormatTheCardIsRefused) {
+TEST_P(AtomicDevice, RefusesACardWithoutAPrimaryPlane) {
     FakeCard& card = kernel.add_card("/dev/dri/fake1");
     const std::uint32_t crtc = card.add_crtc();
     const std::uint32_t connector = card.add_connector(DRM_MODE_CONNECTOR_HDMIA, 1, {card.add_encoder(1)}).id;

@@ -81,18 +81,18 @@ private:
 };
 
 /// `GetParam`: whether the driver has atomic commits.
-class KmsEvening : public Desk, public testing::WithParamInterface<bool> {
+class KmsSession : public Desk, public testing::WithParamInterface<bool> {
 protected:
-    KmsEvening() {
+    KmsSession() {
         desk.card.atomic = GetParam();
         desk.card.flips_at_once = false;
     }
     std::string told_; ///< the last sentence about the output
 };
-INSTANTIATE_TEST_SUITE_P(Kms, KmsEvening, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Kms, KmsSession, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "Atomic" : "Legacy"; });
 
-TEST_P(KmsEvening, TheProjectorComesGoesSleepsAndIsDarkAtTheEnd) {
+TEST_P(KmsSession, HandlesHotplugSleepAndEnd) {
     {
         Evening evening(desk);
         evening.frames(4);
@@ -124,7 +124,7 @@ TEST_P(KmsEvening, TheProjectorComesGoesSleepsAndIsDarkAtTheEnd) {
     EXPECT_EQ(std::count(calls.begin(), calls.end(), "open"), 1);
 }
 
-TEST_P(KmsEvening, AProjectorAtTheOtherConnectorIsLitThere) {
+TEST_P(KmsSession, FollowsTheProjectorToAnotherConnector) {
     Evening evening(desk);
     evening.frames(3);
     desk.card.unplug(desk.hdmi);
@@ -136,7 +136,7 @@ TEST_P(KmsEvening, AProjectorAtTheOtherConnectorIsLitThere) {
     EXPECT_EQ(evening.state(), "the projector at DP-1 is lit, 320 x 200 at 60 Hz");
 }
 
-TEST_P(KmsEvening, TheModeThatIsWishedForGoesBeforeThePreferredOne) {
+TEST_P(KmsSession, PrefersTheRequestedModeToTheProjectorsPreferredOne) {
     {
         Evening evening(desk, wish(160, 120));
         evening.frames(3);
@@ -149,7 +149,7 @@ TEST_P(KmsEvening, TheModeThatIsWishedForGoesBeforeThePreferredOne) {
     EXPECT_EQ(evening.health(), DeviceHealth::Impaired);
 }
 
-TEST_P(KmsEvening, OfTwoHalvesTheProjectorIsToldByHdmiOrTheTechnicianByTheSentence) {
+TEST_P(KmsSession, SignalsTheStereoLayoutByHdmiElseAsksForTheMenu) {
     const drmModeModeInfo plain = kernel_mode(320, 200, 60.0, true);
     OutputRequest halves = wish();
     const auto layout_shown = [&](EyeLayout eyes) {
@@ -175,7 +175,7 @@ TEST_P(KmsEvening, OfTwoHalvesTheProjectorIsToldByHdmiOrTheTechnicianByTheSenten
     EXPECT_EQ(told_, lit);
 }
 
-TEST_P(KmsEvening, AModeThatTheCardRefusesIsFollowedByTheNext) {
+TEST_P(KmsSession, TriesTheNextModeWhenTheCardRefusesOne) {
     desk.card.max_khz = kernel_mode(256, 192, 60.0).clock;
     Evening evening(desk);
     evening.frames(3);
@@ -188,7 +188,7 @@ TEST_P(KmsEvening, AModeThatTheCardRefusesIsFollowedByTheNext) {
     EXPECT_FALSE(evening.lit());
 }
 
-TEST_P(KmsEvening, ACardThatScalesShowsThePictureInItsOwnSize) {
+TEST_P(KmsSession, LetsAScalingCardShowThePictureInItsOwnSize) {
     desk.card.scales = true;
     Evening evening(desk, wish(256, 192));
     evening.frames(3);
@@ -196,7 +196,7 @@ TEST_P(KmsEvening, ACardThatScalesShowsThePictureInItsOwnSize) {
     EXPECT_EQ(desk.card.value(desk.planes[0], "SRC_W") >> 16U, GetParam() ? 320U : 256U);
 }
 
-TEST_P(KmsEvening, WithoutAProjectorAModeOrAMemoryItSaysSo) {
+TEST_P(KmsSession, ReportsAMissingProjectorModeOrMemory) {
     desk.card.unplug(desk.hdmi);
     Evening evening(desk);
     evening.frames(2);
@@ -213,14 +213,14 @@ TEST_P(KmsEvening, WithoutAProjectorAModeOrAMemoryItSaysSo) {
     EXPECT_EQ(evening.mode(), "320x200");
 }
 
-TEST_P(KmsEvening, AnOldDriverTakesFramebuffersByTheirDepth) {
+TEST_P(KmsSession, AddsFramebuffersByDepthForAnOldDriver) {
     desk.card.knows_fourcc = false;
     Evening evening(desk);
     evening.frames(3);
     EXPECT_EQ(evening.mode(), "320x200");
 }
 
-TEST_P(KmsEvening, AnotherProgramThatTakesTheScreenIsWaitedFor) {
+TEST_P(KmsSession, WaitsForAnotherProgramThatHoldsTheScreen) {
     Evening evening(desk);
     evening.frames(3);
     desk.card.drop_master();
@@ -230,7 +230,7 @@ TEST_P(KmsEvening, AnotherProgramThatTakesTheScreenIsWaitedFor) {
     EXPECT_TRUE(holds(evening.state(), "is lit")) << evening.state();
 }
 
-TEST_P(KmsEvening, ACardThatIsPulledOutAndBackAsksForANewStart) {
+TEST_P(KmsSession, RequestsARestartWhenARemovedCardIsBack) {
     Evening evening(desk);
     evening.frames(3);
     desk.card.gone = true;
@@ -244,7 +244,7 @@ TEST_P(KmsEvening, ACardThatIsPulledOutAndBackAsksForANewStart) {
 }
 
 /// Only the test's clock advances.
-TEST_P(KmsEvening, AFlipThatNeverComesIsGivenUpAndAtLastTheCard) {
+TEST_P(KmsSession, GivesUpAMissingFlipAndFinallyTheCard) {
     const KmsCard card = KmsCard::open(card_path, {}).value();
     const CardSeen seen = card.look(true);
     const std::unique_ptr<KmsDevice> kms = make_kms_device(card);
@@ -278,7 +278,7 @@ TEST_P(KmsEvening, AFlipThatNeverComesIsGivenUpAndAtLastTheCard) {
 
 /// If any one call fails once, the picture is on the screen in the end or a sentence says why the program
 /// must end; and nothing leaks.
-TEST_P(KmsEvening, AnyCallMayFailOnce) {
+TEST_P(KmsSession, RecoversFromOrReportsAnySingleFailedCall) {
     const bool atomic = GetParam();
     struct Outcome {
         std::vector<std::string> calls;

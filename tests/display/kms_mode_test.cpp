@@ -22,7 +22,7 @@ ConnectorSeen with(std::vector<ModeTiming> modes) {
     return connector;
 }
 
-TEST(KmsMode, RefreshIsThatOfThePicture) {
+TEST(KmsMode, ComputesTheRefreshRateFromTheTiming) {
     // CTA-861 formats 16 and 5.
     ModeTiming hd{148500, 1920, 2008, 2052, 2200, 0, 1080, 1084, 1089, 1125, 0, 0, false};
     EXPECT_DOUBLE_EQ(refresh_hz(hd), 60.0);
@@ -31,7 +31,7 @@ TEST(KmsMode, RefreshIsThatOfThePicture) {
     EXPECT_EQ(refresh_hz({}), 0.0);
 }
 
-TEST(KmsMode, WhereNothingIsAskedForThePicturesOwnSizeGoesBeforeThePreferredMode) {
+TEST(KmsMode, PrefersThePicturesSizeToThePreferredMode) {
     const auto modes = modes_to_try(
         with({a_mode(3840, 2160, 30.0, true), a_mode(1280, 800, 60.0), a_mode(640, 480, 60.0)}), request());
     ASSERT_EQ(modes.size(), 3U);
@@ -44,7 +44,7 @@ TEST(KmsMode, WhereNothingIsAskedForThePicturesOwnSizeGoesBeforeThePreferredMode
     EXPECT_EQ(without[1].width, 1024) << "then by nearness to the picture";
 }
 
-TEST(KmsMode, OfThePicturesSizeTheOneAtItsRateIsTakenAndOfTheseThePreferredOne) {
+TEST(KmsMode, ChoosesByRateThenByPreferenceAmongModesOfThePicturesSize) {
     const auto first = [](std::vector<ModeTiming> modes, const OutputRequest& asked = request()) {
         return modes_to_try(with(std::move(modes)), asked)[0];
     };
@@ -62,7 +62,7 @@ TEST(KmsMode, OfThePicturesSizeTheOneAtItsRateIsTakenAndOfTheseThePreferredOne) 
                 0.1);
 }
 
-TEST(KmsMode, TheOneAskedForGoesBeforeThePreferredOne) {
+TEST(KmsMode, PrefersTheRequestedModeToThePreferredOne) {
     const auto list =
         with({a_mode(1920, 1080, 60.0, true), a_mode(1280, 800, 59.81), a_mode(1280, 800, 74.93)});
     EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1280, 800, 60.0))[0]), 59.81, 0.01);
@@ -72,19 +72,19 @@ TEST(KmsMode, TheOneAskedForGoesBeforeThePreferredOne) {
     EXPECT_EQ(modes_to_try(list, request(1280, 800, 50.0))[1].width, 1280) << "then the nearest";
 }
 
-TEST(KmsMode, OfTwoThatDifferByAThousandthTheNearerOneIsTaken) {
+TEST(KmsMode, DistinguishesRatesThatDifferByAThousandth) {
     const auto list = with({a_mode(1920, 1080, 59.94), a_mode(1920, 1080, 60.0)});
     EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1920, 1080, 60.0))[0]), 60.0, 0.01);
     EXPECT_NEAR(refresh_hz(modes_to_try(list, request(1920, 1080, 59.94))[0]), 59.94, 0.01);
 }
 
-TEST(KmsMode, HalvesOfPicturesAreTheLastResort) {
+TEST(KmsMode, InterlacedModesAreTheLastResort) {
     const auto list = with({a_mode(1920, 1080, 60.0, false, mode_interlaced), a_mode(720, 576, 50.0)});
     EXPECT_EQ(modes_to_try(list, request(1920, 1080))[0].width, 720);
     EXPECT_EQ(modes_to_try(with({list.modes[0]}), request(1920, 1080))[0].width, 1920);
 }
 
-TEST(KmsMode, NonsenseInAListIsLeftOut) {
+TEST(KmsMode, IgnoresInvalidModes) {
     ModeTiming empty;
     ModeTiming no_clock = a_mode(1280, 800, 60.0);
     no_clock.clock_khz = 0;
@@ -94,7 +94,7 @@ TEST(KmsMode, NonsenseInAListIsLeftOut) {
     EXPECT_TRUE(modes_to_try(with({}), request(1280, 800)).empty());
 }
 
-TEST(KmsMode, AForcedModeComesFromTheListIfItIsThereAndElseFromUs) {
+TEST(KmsMode, TakesAForcedModeFromTheListElseMakesOne) {
     OutputRequest forced = request(1280, 800, 60.0);
     forced.force = true;
     const auto bad_edid = with({a_mode(1024, 768, 60.0), a_mode(800, 600, 60.0)});
@@ -109,7 +109,7 @@ TEST(KmsMode, AForcedModeComesFromTheListIfItIsThereAndElseFromUs) {
     EXPECT_EQ(modes_to_try(good, forced).size(), 2U);
 }
 
-TEST(KmsMode, TimingsMadeHereAreThoseOfTheStandards) {
+TEST(KmsMode, MakesTimingsOfTheStandards) {
     // VESA DMT 1.13: 1280 x 800 with reduced blanking, ID 1Bh; CVT gives identical values.
     const ModeTiming wide = make_mode(1280, 800, 60.0);
     EXPECT_EQ(wide.clock_khz, 71000U);
@@ -133,9 +133,9 @@ TEST(KmsMode, TimingsMadeHereAreThoseOfTheStandards) {
 }
 
 /// Connectors that are less than a projector that is there.
-class ChoiceOfKms : public testing::Test {
+class ConnectorChoiceTest : public testing::Test {
 protected:
-    ChoiceOfKms() {
+    ConnectorChoiceTest() {
         panel.built_in = true;
         off.plugged = Plugged::No;
         unsure.plugged = Plugged::Unknown;
@@ -145,7 +145,7 @@ protected:
                   unsure = a_projector(3, "VGA-1"), mute = a_projector(4, "DP-1");
 };
 
-TEST_F(ChoiceOfKms, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeThePanel) {
+TEST_F(ConnectorChoiceTest, PrefersAProjectorToAPanelAndToAnUnknownConnector) {
     const ConnectorSeen there = a_projector(5, "DP-2");
     const auto chosen = [](std::vector<ConnectorSeen> all, const OutputRequest& asked) {
         const CardSeen card = a_card(std::move(all));
@@ -171,7 +171,7 @@ TEST_F(ChoiceOfKms, AProjectorThatIsThereGoesBeforeOneThatCannotSayAndBeforeTheP
     EXPECT_EQ(chosen({there, mute, off}, forced), "none") << "no mode to force";
 }
 
-TEST_F(ChoiceOfKms, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
+TEST_F(ConnectorChoiceTest, RanksACardWithAProjectorFirst) {
     EXPECT_EQ(rank_of(a_card({panel, a_projector(5, "DP-2")}), request()), CardRank::Projector);
     EXPECT_EQ(rank_of(a_card({off, panel}), request()), CardRank::Panel);
     for (const ConnectorSeen& nothing_certain : {off, unsure, mute}) {
@@ -188,7 +188,7 @@ TEST_F(ChoiceOfKms, TheCardWithAProjectorGoesBeforeTheOneThatCouldHaveOne) {
     EXPECT_LT(CardRank::NothingCertain, CardRank::WithoutTheConnectorNamed);
 }
 
-TEST(KmsMode, AProjectorWithoutAnEdidGetsUsualModesAndNoOtherIsTouched) {
+TEST(KmsMode, AddsUsualModesOnlyToAProjectorWithoutAnEdid) {
     ConnectorSeen off = with({});
     off.plugged = Plugged::No;
     CardSeen card = a_card({with({}), with({a_mode(640, 480, 60.0)}), off});
@@ -208,7 +208,7 @@ ModeTiming flagged(ModeTiming mode, std::uint32_t layout) {
 
 constexpr std::uint32_t frame_packing = 1U << 14U;
 
-TEST(KmsMode, OfTwoHalvesTheTwinInHdmis3DGoesBeforeThePlainMode) {
+TEST(KmsMode, PrefersTheHdmi3DTwinForTwoHalves) {
     const ModeTiming plain = a_mode(1280, 800, 60.0, true);
     const ModeTiming other = a_mode(1024, 768, 60.0);
     ModeTiming twin = flagged(plain, mode_side_by_side);
@@ -236,7 +236,7 @@ TEST(KmsMode, OfTwoHalvesTheTwinInHdmis3DGoesBeforeThePlainMode) {
     EXPECT_EQ(modes_to_try(list, halves)[0], flagged(other, mode_side_by_side)) << "the requested one's";
 }
 
-TEST(KmsMode, ForTheEyesInTurnAFastModeGoesBeforeThePicturesSize) {
+TEST(KmsMode, PrefersAFastModeToThePicturesSizeForAlternatingEyes) {
     OutputRequest turns = request();
     turns.eyes = EyeLayout::InTurn;
     turns.fast = true;

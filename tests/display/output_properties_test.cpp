@@ -18,7 +18,7 @@ std::vector<KmsProperty> intel_hdmi() {
     };
 }
 
-TEST(OutputProperties, FullRangeGraphicsAndNoHighDynamicRange) {
+TEST(OutputProperties, SetFullRangeGraphicsAndNoHighDynamicRange) {
     const std::vector<PropertySetting> wanted{{3, 1}, {4, 0}, {5, 1}, {6, 0}};
     EXPECT_EQ(exact_picture(intel_hdmi()), wanted);
     std::vector<KmsProperty> set = intel_hdmi();
@@ -28,7 +28,7 @@ TEST(OutputProperties, FullRangeGraphicsAndNoHighDynamicRange) {
     EXPECT_TRUE(exact_picture(set).empty()) << "what is so already is left alone";
 }
 
-TEST(OutputProperties, NoBordersOfTheDrivers) {
+TEST(OutputProperties, TurnOffUnderscanAndMargins) {
     // amdgpu orders its enumeration differently from nouveau; vc4 has margins.
     EXPECT_EQ(exact_picture(std::vector<KmsProperty>{
                   {7, 2, false, "underscan", {{"off", 0}, {"on", 1}, {"auto", 2}}},
@@ -45,13 +45,13 @@ TEST(OutputProperties, NoBordersOfTheDrivers) {
               (std::vector<PropertySetting>{{7, 3}, {1, 0}, {3, 0}}));
 }
 
-TEST(OutputProperties, AChoiceThatTheDriverDoesNotNameIsNotMade) {
+TEST(OutputProperties, IgnoreChoicesThatTheDriverDoesNotOffer) {
     EXPECT_TRUE(
         exact_picture(std::vector<KmsProperty>{{3, 0, false, "Broadcast RGB", {{"Automatic", 0}}}}).empty());
     EXPECT_TRUE(exact_picture({}).empty());
 }
 
-TEST(OutputProperties, TheRangeIsInDoubtOnHdmiInATelevisionsModeWithoutTheProperty) {
+TEST(OutputProperties, ReportAnUncertainRangeOnHdmiInATelevisionsMode) {
     const ModeTiming television = a_mode(1920, 1080, 60.0);
     EXPECT_FALSE(range_in_doubt({}, true, television, true).empty());
     EXPECT_FALSE(range_in_doubt(intel_hdmi(), true, television, false).empty()) << "the driver refused it";

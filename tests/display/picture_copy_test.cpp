@@ -9,7 +9,7 @@
 namespace frustumscreen::display {
 namespace {
 
-TEST_F(Copying, OfTheSameSizeEveryCodeArrivesAsItIsAndTheTopRowFirst) {
+TEST_F(Copying, KeepsEachCodeAndTheTopRowFirstAtTheSameSize) {
     const PictureFramebuffer picture = picture_of(256, 256);
     const std::vector<Texel> screen = copied(picture, {256, 256}, TopRow::First);
     for (int y = 0; y < 256; ++y) {
@@ -19,7 +19,7 @@ TEST_F(Copying, OfTheSameSizeEveryCodeArrivesAsItIsAndTheTopRowFirst) {
     }
 }
 
-TEST_F(Copying, InAWindowTheTopRowIsTheLast) {
+TEST_F(Copying, PutsTheTopRowLastInAWindow) {
     const PictureFramebuffer picture = picture_of(64, 40);
     const std::vector<Texel> screen = copied(picture, {64, 40}, TopRow::Last);
     for (int y = 0; y < 40; ++y) {
@@ -29,7 +29,7 @@ TEST_F(Copying, InAWindowTheTopRowIsTheLast) {
     }
 }
 
-TEST_F(Copying, AnotherShapeHasBlackAroundIt) {
+TEST_F(Copying, AddsBlackBarsForAnotherShape) {
     // 64 x 40 in 128 x 100: 128 x 80, ten black rows above and below.
     const PictureFramebuffer picture = picture_of(64, 40, [](int, int) { return Texel{200, 100, 50, 255}; });
     for (const TopRow top : {TopRow::First, TopRow::Last}) {
@@ -49,7 +49,7 @@ TEST_F(Copying, AnotherShapeHasBlackAroundIt) {
     }
 }
 
-TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
+TEST_F(Copying, NeverScalesTheProbeCodeInTheCorner) {
     // base/probe_code.h: greys of code 1 and 2. The rest is bright, to make interpolation visible.
     const PictureFramebuffer picture = picture_of(64, 40, [](int x, int y) {
         const auto code = static_cast<unsigned char>(y > 0 || x >= probe_pixels ? 250 : x % 3 == 0 ? 2 : 1);
@@ -78,7 +78,7 @@ TEST_F(Copying, TheCodeInTheCornerIsShownAsItIsHoweverThePictureIsScaled) {
     EXPECT_GT(larger[128][0], 2) << "and below";
 }
 
-TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
+TEST_F(Copying, CopiesAPartToItsPlaceAndKeepsTheRest) {
     const PictureFramebuffer picture = picture_of(64, 40);
     for (const PixelSize size : {PixelSize{64, 40}, {128, 100}, {50, 30}}) {
         for (const TopRow top : {TopRow::First, TopRow::Last}) {
@@ -109,7 +109,7 @@ TEST_F(Copying, APartIsWhereItIsInTheWholePictureAndTheRestStays) {
     }
 }
 
-TEST_F(Copying, ScalesCodes) {
+TEST_F(Copying, InterpolatesCodesRatherThanLight) {
     // Black and white columns, at half size. Half the light of white would be code 187.5 (IEC 61966-2-1).
     const PictureFramebuffer picture = picture_of(128, 64, [](int x, int) {
         const auto code = static_cast<unsigned char>(x % 2 == 0 ? 0 : 255);
@@ -121,7 +121,7 @@ TEST_F(Copying, ScalesCodes) {
     }
 }
 
-TEST_F(Copying, OfTwoPicturesEachIsCopiedIntoItsHalfAsIfItWereAlone) {
+TEST_F(Copying, CopiesEachOfTwoPicturesIntoItsHalf) {
     const auto upper = [](int x, int y) { return colour_of(x, y); };
     const auto lower = [](int x, int y) { return colour_of(255 - x, 90 + y); };
     const auto both = [](int x, int y) { return y < 40 ? colour_of(x, y) : colour_of(255 - x, 90 + y - 40); };
@@ -168,7 +168,7 @@ TEST_F(Copying, OfTwoPicturesEachIsCopiedIntoItsHalfAsIfItWereAlone) {
     ASSERT_TRUE(drawing_->make_current());
 }
 
-TEST_F(Copying, LeavesTheRenderersStateAlone) {
+TEST_F(Copying, KeepsTheRenderersState) {
     const PictureFramebuffer picture = picture_of(16, 16);
     glBindFramebuffer(GL_FRAMEBUFFER, picture.name());
     glViewport(1, 2, 3, 4);

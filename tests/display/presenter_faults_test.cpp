@@ -8,7 +8,7 @@
 namespace frustumscreen::display {
 namespace {
 
-TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
+TEST(Presenter, WaitsOnceForAMissingFlipAndRelightsLater) {
     LitExhibit exhibit;
     exhibit.kms.hangs = true;
     exhibit.frame();
@@ -26,7 +26,7 @@ TEST(Presenter, WaitsForAFlipThatNeverComesOnlyOnceAndLightsAnewLater) {
     EXPECT_EQ(exhibit.kms.flips, flips + 10);
 }
 
-TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
+TEST(Presenter, ContinuesAfterALateFlipWithoutSettingTheMode) {
     LitExhibit exhibit;
     exhibit.kms.hangs = true;
     exhibit.frames(10);
@@ -36,7 +36,7 @@ TEST(Presenter, GoesOnWithALateFlipThatComesAfterAll) {
     EXPECT_EQ(exhibit.kms.lights, 1) << "nothing was lost, so nothing is set again";
 }
 
-TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {
+TEST(Presenter, SkipsAPictureWhileTheCardIsBusy) {
     LitExhibit exhibit;
     exhibit.kms.busy = 2;
     exhibit.frames(3);
@@ -45,7 +45,7 @@ TEST(Presenter, LeavesOutAPictureWhileTheCardIsBusy) {
     EXPECT_EQ(exhibit.kms.lights, 1);
 }
 
-TEST(Presenter, WaitsForAnotherProgramToLetGoOfTheScreen) {
+TEST(Presenter, WaitsForAnotherProgramToReleaseTheScreen) {
     LitExhibit exhibit;
     exhibit.kms.master = false;
     exhibit.kms.held_by_another = true;
@@ -58,7 +58,7 @@ TEST(Presenter, WaitsForAnotherProgramToLetGoOfTheScreen) {
     EXPECT_EQ(exhibit.kms.lights, 2);
 }
 
-TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
+TEST(Presenter, ContinuesWithoutTheCardAndRequestsARestartWhenItIsBack) {
     LitExhibit exhibit;
     exhibit.kms.gone = true;
     exhibit.frames(100);
@@ -72,7 +72,7 @@ TEST(Presenter, LivesOnWithoutTheCardAndAsksForANewStartWhenItIsBack) {
     EXPECT_EQ(shown.error().kind, ErrorKind::DeviceLost);
 }
 
-TEST(Presenter, SetsTheModeAnewWhereTheKernelSaysThatTheLinkIsBad) {
+TEST(Presenter, ResetsTheModeWhenTheKernelReportsABadLink) {
     LitExhibit exhibit;
     ConnectorSeen bad = a_projector();
     bad.link_bad = true;
@@ -94,7 +94,7 @@ std::optional<Nanoseconds> patience(PresentedExhibit& exhibit) {
     return std::nullopt;
 }
 
-TEST(Presenter, AsksForANewStartWhereTheCardTakesNoPictureAnyMore) {
+TEST(Presenter, RequestsARestartWhenTheCardTakesNoPictureAnyMore) {
     for (const bool flips_stop : {false, true}) {
         for (const int width : {1280, 1920}) { // unscaled and scaled
             PresentedExhibit exhibit;
@@ -112,7 +112,7 @@ TEST(Presenter, AsksForANewStartWhereTheCardTakesNoPictureAnyMore) {
     }
 }
 
-TEST(Presenter, BearsWithACardThatIsBusyNowAndThenOrHasNothingToLight) {
+TEST(Presenter, ToleratesACardThatIsBrieflyBusyOrHasNoConnector) {
     PresentedExhibit busy;
     busy.presenter.connected(a_card({a_projector()}));
     busy.frames(5);
@@ -130,7 +130,7 @@ TEST(Presenter, BearsWithACardThatIsBusyNowAndThenOrHasNothingToLight) {
     EXPECT_EQ(patience(dark), std::nullopt);
 }
 
-TEST(Presenter, EndsLitAfterAnyHistoryThatEndsWell) {
+TEST(Presenter, IsLitAfterRandomFaultsThatEnd) {
     for (unsigned seed = 0; seed < 300; ++seed) {
         std::mt19937 random(seed);
         const auto one_of = [&random](int count) {

@@ -4,7 +4,7 @@
 namespace frustumscreen::display {
 namespace {
 
-TEST(PresenterOutput, LeavesTheScalingToACardThatCan) {
+TEST(PresenterOutput, LeavesScalingToACardThatSupportsIt) {
     PresentedExhibit exhibit;
     exhibit.kms.scales = true;
     ConnectorSeen projector = a_projector();
@@ -25,7 +25,7 @@ TEST(PresenterOutput, LeavesTheScalingToACardThatCan) {
     EXPECT_EQ(exhibit.memory.pairs, 1) << "another mode needs no new memory";
 }
 
-TEST(PresenterOutput, ScalesByItselfWhereTheCardRefusesToAndAsksItOnce) {
+TEST(PresenterOutput, ScalesItselfAfterTheCardRefusesOnce) {
     PresentedExhibit exhibit;
     ConnectorSeen projector = a_projector();
     for (const int width : {1920, 1600, 1920}) {
@@ -40,7 +40,7 @@ TEST(PresenterOutput, ScalesByItselfWhereTheCardRefusesToAndAsksItOnce) {
     EXPECT_EQ(exhibit.kms.scalings_refused, 1);
 }
 
-TEST(PresenterOutput, ScalesByItselfWhereTheCardTakesOnlyOnePictureToScale) {
+TEST(PresenterOutput, ScalesItselfIfTheCardRefusesScaledFlips) {
     PresentedExhibit exhibit;
     exhibit.kms.scales = true;
     ConnectorSeen projector = a_projector();
@@ -71,7 +71,7 @@ ConnectorSeen unseen_projector() {
     return projector;
 }
 
-TEST(PresenterOutput, LightsTheConnectorNamedByForceThoughItSaysThatNothingIsConnected) {
+TEST(PresenterOutput, LightsAForcedConnectorThatReportsNothingConnected) {
     PresentedExhibit exhibit(forced_on_hdmi());
     exhibit.presenter.connected(a_card({unseen_projector()}));
     exhibit.frames(5);
@@ -92,7 +92,7 @@ TEST(PresenterOutput, LightsTheConnectorNamedByForceThoughItSaysThatNothingIsCon
     EXPECT_TRUE(exhibit.says("though it says"));
 }
 
-TEST(PresenterOutput, SaysWhichKernelArgumentForcesAConnectorThatTheCardDoesNotLight) {
+TEST(PresenterOutput, NamesTheKernelArgumentThatForcesAConnector) {
     PresentedExhibit exhibit(forced_on_hdmi());
     exhibit.kms.refused = {make_mode(1280, 800, 60.0)};
     exhibit.presenter.connected(a_card({unseen_projector()}));
@@ -103,7 +103,7 @@ TEST(PresenterOutput, SaysWhichKernelArgumentForcesAConnectorThatTheCardDoesNotL
         << exhibit.presenter.state();
 }
 
-TEST(PresenterOutput, TellsWhyFramebuffersCannotBeMade) {
+TEST(PresenterOutput, ReportsWhyFramebuffersCannotBeMade) {
     PresentedExhibit exhibit;
     exhibit.memory.none_left = true;
     exhibit.presenter.connected(a_card({a_projector()}));
@@ -118,7 +118,7 @@ TEST(PresenterOutput, TellsWhyFramebuffersCannotBeMade) {
     EXPECT_TRUE(exhibit.says("refuses every mode"));
 }
 
-TEST(PresenterOutput, TellsWhatOfTheConnectorCannotBeSetFromHere) {
+TEST(PresenterOutput, ReportsTheShortcomingOfTheConnector) {
     PresentedExhibit exhibit;
     exhibit.kms.lacks = "its range is unknown";
     exhibit.presenter.connected(a_card({a_projector()}));
@@ -127,7 +127,7 @@ TEST(PresenterOutput, TellsWhatOfTheConnectorCannotBeSetFromHere) {
               "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz; its range is unknown");
 }
 
-TEST(PresenterOutput, AsksForANewStartWhereAnotherCardHasTheProjector) {
+TEST(PresenterOutput, RequestsARestartIfAnotherCardHasTheProjector) {
     PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({unseen_projector()}));
     exhibit.frames(5);
@@ -141,7 +141,7 @@ TEST(PresenterOutput, AsksForANewStartWhereAnotherCardHasTheProjector) {
     EXPECT_TRUE(exhibit.says("another graphics card")) << exhibit.presenter.state();
 }
 
-TEST(PresenterOutput, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
+TEST(PresenterOutput, LeavesAModeInWhichNoFlipSucceeds) {
     PresentedExhibit exhibit;
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(1920, 1080, 60.0, true), a_mode(1280, 720, 60.0)};
@@ -154,7 +154,7 @@ TEST(PresenterOutput, LeavesAModeForWhichTheCardHasMemoryForOnePictureOnly) {
     EXPECT_EQ(exhibit.kms.lights, 2);
 }
 
-TEST(PresenterOutput, SaysWhatThePersonBesideItCanDo) {
+TEST(PresenterOutput, NamesTheRemedyForConnectorAndModeFaults) {
     OutputRequest request = wish_for_the_preferred();
     request.connector = "DP-3";
     PresentedExhibit exhibit(request);
@@ -180,7 +180,7 @@ OutputRequest both_eyes(EyeLayout eyes) {
     return request;
 }
 
-TEST(PresenterOutput, TwoPicturesAboveEachOtherHaveAFramebufferOfTwiceTheHeight) {
+TEST(PresenterOutput, UsesAFramebufferOfTwiceTheHeightForAlternatingEyes) {
     for (const bool scales : {true, false}) {
         PresentedExhibit exhibit(both_eyes(EyeLayout::InTurn));
         exhibit.kms.scales = scales;
@@ -204,7 +204,7 @@ TEST(PresenterOutput, TwoPicturesAboveEachOtherHaveAFramebufferOfTwiceTheHeight)
     }
 }
 
-TEST(PresenterOutput, TheEyesLayoutIsToldWithEveryOtherState) {
+TEST(PresenterOutput, ReportsTheEyeLayoutWithEveryOtherState) {
     OutputRequest request = both_eyes(EyeLayout::SideBySide);
     request.width = 1024;
     request.height = 768;
@@ -227,7 +227,7 @@ TEST(PresenterOutput, TheEyesLayoutIsToldWithEveryOtherState) {
 }
 
 /// No flip of another picture is possible: the failure comes after the call.
-TEST(PresenterOutput, AFlipThatFailsAfterItWasQueuedIsActedOn) {
+TEST(PresenterOutput, RelightsAfterAQueuedFlipFails) {
     for (const KmsAnswer answer : {KmsAnswer::Refused, KmsAnswer::NotMaster, KmsAnswer::Gone}) {
         PresentedExhibit exhibit;
         exhibit.presenter.connected(a_card({a_projector()}));

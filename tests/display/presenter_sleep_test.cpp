@@ -31,7 +31,7 @@ public:
     }
 };
 
-TEST(PresenterSleep, TurnsTheProjectorOffOnceAndLightsItWithTheNextPicture) {
+TEST(PresenterSleep, TurnsOffOnceAndRelightsWithTheNextPicture) {
     SleepingExhibit exhibit;
     exhibit.sleep(600);
     EXPECT_FALSE(exhibit.kms.screen);
@@ -46,7 +46,7 @@ TEST(PresenterSleep, TurnsTheProjectorOffOnceAndLightsItWithTheNextPicture) {
     EXPECT_EQ(exhibit.presenter.state(), "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz");
 }
 
-TEST(PresenterSleep, ACardThatRefusesToDarkenIsAskedAgain) {
+TEST(PresenterSleep, RetriesWhenTheCardRefusesToDarken) {
     SleepingExhibit exhibit;
     exhibit.kms.refused = {{}}; // an empty mode means that the screen is off
     exhibit.sleep(59);
@@ -58,7 +58,7 @@ TEST(PresenterSleep, ACardThatRefusesToDarkenIsAskedAgain) {
     EXPECT_TRUE(exhibit.says("dark on purpose")) << exhibit.presenter.state();
 }
 
-TEST(PresenterSleep, StaysDarkWhateverComesAndGoes) {
+TEST(PresenterSleep, StaysDarkDuringHotplug) {
     SleepingExhibit exhibit;
     exhibit.sleep(10);
     for (int k = 0; k < 5; ++k) {
@@ -74,7 +74,7 @@ TEST(PresenterSleep, StaysDarkWhateverComesAndGoes) {
     EXPECT_TRUE(exhibit.kms.screen);
 }
 
-TEST(PresenterSleep, WakesWithoutAProjectorAndLightsItWhenItComes) {
+TEST(PresenterSleep, WakesWithoutAProjectorAndLightsItOnceConnected) {
     SleepingExhibit exhibit;
     exhibit.sleep(10);
     exhibit.presenter.connected(a_card({unplugged()}));
@@ -97,7 +97,7 @@ TEST(PresenterSleep, FallsAsleepWithoutAProjector) {
     EXPECT_EQ(exhibit.kms.lights, 0);
 }
 
-TEST(PresenterSleep, WaitsForAGoodMomentAndTriesAgain) {
+TEST(PresenterSleep, WaitsForTheCardToBeFreeAndRetries) {
     SleepingExhibit exhibit;
     exhibit.sleep(10, false);
     EXPECT_EQ(exhibit.kms.darkenings, 0) << "another program asks the card";
@@ -107,7 +107,7 @@ TEST(PresenterSleep, WaitsForAGoodMomentAndTriesAgain) {
     EXPECT_FALSE(exhibit.kms.screen);
 }
 
-TEST(PresenterSleep, APressBeforeItIsDarkChangesNothing) {
+TEST(PresenterSleep, WakingBeforeItIsDarkChangesNothing) {
     SleepingExhibit exhibit;
     exhibit.sleep(1, false);
     exhibit.frames(10);
@@ -116,7 +116,7 @@ TEST(PresenterSleep, APressBeforeItIsDarkChangesNothing) {
     EXPECT_TRUE(exhibit.says("is lit")) << exhibit.presenter.state();
 }
 
-TEST(PresenterSleep, ACardThatIsBackNeedsANewStart) {
+TEST(PresenterSleep, RequestsARestartWhenARemovedCardIsBack) {
     SleepingExhibit exhibit;
     exhibit.sleep(10);
     CardSeen back = a_card({a_projector()});

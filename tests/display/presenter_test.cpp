@@ -7,7 +7,7 @@
 namespace frustumscreen::display {
 namespace {
 
-TEST(Presenter, LivesInTheDarkAndLightsTheProjectorWhenItComes) {
+TEST(Presenter, StaysDarkUntilAProjectorIsConnected) {
     PresentedExhibit exhibit;
     exhibit.frames(100);
     EXPECT_FALSE(exhibit.kms.screen);
@@ -26,7 +26,7 @@ TEST(Presenter, LivesInTheDarkAndLightsTheProjectorWhenItComes) {
     EXPECT_EQ(exhibit.presenter.state(), "the projector at HDMI-A-1 is lit, 1280 x 800 at 60 Hz");
 }
 
-TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
+TEST(Presenter, ShowsEveryPictureOnceInAlternatingFramebuffers) {
     PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frame();
@@ -44,7 +44,7 @@ TEST(Presenter, ShowsEveryPictureOnceAndNeverDrawsIntoTheOneOnShow) {
         << "frames begin on flips: none waits for the one before";
 }
 
-TEST(Presenter, CopiesWhatChangedSinceTheFramebufferWasShown) {
+TEST(Presenter, CopiesOnlyChangesSinceTheFramebufferWasLastShown) {
     PresentedExhibit exhibit;
     const PixelRectangle whole{0, 0, 1280, 800};
     exhibit.frame({5, 5, 1, 1}); // while dark
@@ -96,7 +96,7 @@ TEST(Presenter, ReadsTheFramebufferThatTheProjectorShows) {
     }
 }
 
-TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {
+TEST(Presenter, ReturnsTheTimeOfTheRefreshThatShowsThePicture) {
     PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(3);
@@ -107,7 +107,7 @@ TEST(Presenter, TellsTheTimeOfTheRefreshThatShowsThePicture) {
     }
 }
 
-TEST(Presenter, AsksWhetherFlipsKeepTimeOnceAModeIsSetAndAgainAfterTheNext) {
+TEST(Presenter, RechecksWhetherFlipsKeepTimeAfterEachModeSet) {
     // Frames begin on refreshes only if the query came at a time when the kernel could answer.
     PresentedExhibit exhibit;
     for (const double hz : {60.0, 59.94}) {
@@ -123,7 +123,7 @@ TEST(Presenter, AsksWhetherFlipsKeepTimeOnceAModeIsSetAndAgainAfterTheNext) {
     EXPECT_EQ(exhibit.kms.lights, 2);
 }
 
-TEST(Presenter, PacesByItselfWhereFlipsComeAtOnce) {
+TEST(Presenter, PacesItselfIfFlipsKeepNoTime) {
     PresentedExhibit exhibit;
     exhibit.kms.keeps_time = false;
     exhibit.presenter.connected(a_card({a_projector()}));
@@ -135,7 +135,7 @@ TEST(Presenter, PacesByItselfWhereFlipsComeAtOnce) {
     EXPECT_EQ(told, exhibit.kms.time - one_refresh + std::chrono::milliseconds(5));
 }
 
-TEST(Presenter, GoesDarkWhenTheProjectorGoesAndSetsItsModeAnewWhenItIsBack) {
+TEST(Presenter, GoesDarkOnUnplugAndResetsTheModeOnReplug) {
     PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     exhibit.frames(10);
@@ -176,7 +176,7 @@ TEST(Presenter, SurvivesUnplugAndReplugAtEveryStep) {
     }
 }
 
-TEST(Presenter, TakesAnotherModeWithoutTheRendererKnowing) {
+TEST(Presenter, SwitchesToAnotherModeAndFreesTheOldMemory) {
     LitExhibit exhibit;
     ConnectorSeen other = a_projector();
     other.modes = {a_mode(1920, 1080, 60.0, true)};
@@ -188,7 +188,7 @@ TEST(Presenter, TakesAnotherModeWithoutTheRendererKnowing) {
     EXPECT_EQ(exhibit.memory.alive, 1) << "what was shown before is given back";
 }
 
-TEST(Presenter, KeepsWhatIsLitWhenSomethingElseIsPlugged) {
+TEST(Presenter, KeepsTheLitProjectorWhenAnotherIsPlugged) {
     PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector(2, "HDMI-A-2")}));
     exhibit.frames(5);
@@ -198,7 +198,7 @@ TEST(Presenter, KeepsWhatIsLitWhenSomethingElseIsPlugged) {
     EXPECT_EQ(exhibit.kms.screen->connector, 2U);
 }
 
-TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
+TEST(Presenter, TriesTheNextModeWhenTheCardRefusesOne) {
     PresentedExhibit exhibit;
     ConnectorSeen projector = a_projector();
     projector.modes = {a_mode(3840, 2160, 60.0, true), a_mode(1920, 1200, 60.0), a_mode(1280, 800, 60.0)};
@@ -217,7 +217,7 @@ TEST(Presenter, TriesTheNextModeWhereTheCardRefusesOne) {
     EXPECT_LE(none.kms.lights, 3 * 5) << "tried again every second, not every frame";
 }
 
-TEST(Presenter, SetsNoModeWhileTheCardIsBeingAsked) {
+TEST(Presenter, SetsNoModeWhileTheCardIsProbed) {
     PresentedExhibit exhibit;
     exhibit.presenter.connected(a_card({a_projector()}));
     ASSERT_TRUE(exhibit.presenter.present({}, false));
@@ -262,7 +262,7 @@ TEST(Presenter, APictureWithoutASizeIsDrawnInThePreferredModesSize) {
     EXPECT_EQ(exhibit.kms.screen->size, (PixelSize{640, 480}));
 }
 
-TEST(Presenter, WhoPresentsRarelyWaitsForTheFlip) {
+TEST(Presenter, WaitsUntilThePictureIsShownOrTheFlipFails) {
     PresentedExhibit exhibit;
     EXPECT_FALSE(exhibit.presenter.wait_until_shown()) << "there is no projector";
     exhibit.presenter.connected(a_card({a_projector()}));

@@ -8,7 +8,7 @@ using ReadingBack = Copying;
 
 constexpr std::byte untouched{0x5A};
 
-TEST_F(ReadingBack, MemoryHoldsWhatAScreenWouldShowInTheKernelsOrder) {
+TEST_F(ReadingBack, FillsMemoryInTheKernelsPixelOrder) {
     const PictureFramebuffer picture = picture_of(64, 40);
     for (const PixelSize size : {PixelSize{64, 40}, {128, 100}, {50, 30}}) {
         const std::vector<Texel> screen = copied(picture, size, TopRow::First);
@@ -37,7 +37,7 @@ TEST_F(ReadingBack, MemoryHoldsWhatAScreenWouldShowInTheKernelsOrder) {
     }
 }
 
-TEST_F(ReadingBack, APartLeavesTheRestOfTheMemoryAsItIs) {
+TEST_F(ReadingBack, WritesOnlyTheRequestedPart) {
     const PictureFramebuffer picture = picture_of(64, 40);
     constexpr std::size_t stride = 4 * 64;
     std::vector<std::byte> memory(stride * 40, untouched);

@@ -53,7 +53,7 @@ bool mount_full_disk(const fs::path& folder) {
     return true;
 }
 
-TEST_F(ShaderCache, ItsIndexHasAllItsBlocksAndMesaTakesItAsItIs) {
+TEST_F(ShaderCache, AllocatesTheWholeIndexInTheSizeThatMesaExpects) {
     const fs::path index = folder / "cache/mesa_shader_cache/index";
     const int ended = in_a_process([&] {
         if (!keep_shaders_in(folder / "cache")) {
@@ -70,7 +70,7 @@ TEST_F(ShaderCache, ItsIndexHasAllItsBlocksAndMesaTakesItAsItIs) {
         << "Mesa has an index of another size: firmware_host/display/shader_cache.cpp";
 }
 
-TEST_F(ShaderCache, AFullDiskIsToldAndMesaDoesNotUseIt) {
+TEST_F(ShaderCache, ReportsAFullDiskAndMesaStillDraws) {
     const int ended = in_a_process([&] {
         if (!mount_full_disk(folder)) {
             return no_namespace;

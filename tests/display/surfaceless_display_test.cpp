@@ -46,7 +46,7 @@ TEST(SurfacelessDisplay, CanBeMadeAgainAfterItIsGone) {
     }
 }
 
-TEST(SurfacelessDisplay, KnowsDriversThatDrawOnTheProcessorByTheirNames) {
+TEST(SurfacelessDisplay, RecognizesSoftwareDriversByTheirNames) {
     // GL_RENDERER of Mesa 22.3.
     for (const std::string_view name : {"llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe"}) {
         EXPECT_TRUE(draws_on_processor(name)) << name;

@@ -104,7 +104,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Kms, TwoOutputs, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "Atomic" : "Legacy"; });
 
-TEST_P(TwoOutputs, BothAreLitEachInItsMode) {
+TEST_P(TwoOutputs, LightsBothEachInItsMode) {
     open();
     frames(5);
     EXPECT_EQ(width_at(desk.hdmi), 320);
@@ -119,7 +119,7 @@ TEST_P(TwoOutputs, BothAreLitEachInItsMode) {
     EXPECT_EQ(desk.card.removed_while_shown(), 0);
 }
 
-TEST_P(TwoOutputs, OnePulledAndPutBackLeavesTheOthersFlipsGoing) {
+TEST_P(TwoOutputs, ReplugOfOneDoesNotInterruptTheOther) {
     open();
     frames(5);
     const auto goes_on_without = [this](std::uint32_t connector, Output& pulled, Output& other,
@@ -159,7 +159,7 @@ TEST_P(TwoOutputs, AnOutputThatSleepsLeavesTheOtherLit) {
     EXPECT_EQ(width_at(desk.hdmi), 320);
 }
 
-TEST_P(TwoOutputs, AFlipThatDoesNotComeIsNotWaitedForAndIsTold) {
+TEST_P(TwoOutputs, DoesNotWaitForAMissingFlipAndReportsIt) {
     open();
     frames(5);
     ASSERT_TRUE(screen->presenter().present({0, 0, 320, 200}, true)); // its flip never comes
@@ -179,7 +179,7 @@ TEST_P(TwoOutputs, AFlipThatDoesNotComeIsNotWaitedForAndIsTold) {
     EXPECT_EQ(screen->presented, presented + 1) << "it is lit again";
 }
 
-TEST_P(TwoOutputs, WhatAnEarlierProgramShowsAtBothIsReplaced) {
+TEST_P(TwoOutputs, ReplacesThePictureOfAnEarlierProgram) {
     KmsCard earlier = KmsCard::open(card_path, {}).value();
     std::optional<DumbBuffer> buffer = DumbBuffer::create(earlier.file(), {320, 200});
     ASSERT_TRUE(buffer);
@@ -194,7 +194,7 @@ TEST_P(TwoOutputs, WhatAnEarlierProgramShowsAtBothIsReplaced) {
     EXPECT_EQ(desk.card.value(desk.other, "CRTC_ID"), desk.crtcs[1]);
 }
 
-TEST_P(TwoOutputs, EachProbesItsOwnConnectorAlone) {
+TEST_P(TwoOutputs, EachProbesOnlyItsOwnConnector) {
     open();
     frames(3);
     desk.card.unplug(desk.other);
@@ -206,7 +206,7 @@ TEST_P(TwoOutputs, EachProbesItsOwnConnectorAlone) {
     EXPECT_EQ(seen.connectors[0].plugged, Plugged::No);
 }
 
-TEST_P(TwoOutputs, AnotherProgramThatTakesTheCardIsWaitedForByBoth) {
+TEST_P(TwoOutputs, BothWaitForAnotherProgramThatHoldsTheCard) {
     open();
     frames(3);
     desk.card.drop_master();
@@ -218,7 +218,7 @@ TEST_P(TwoOutputs, AnotherProgramThatTakesTheCardIsWaitedForByBoth) {
     EXPECT_TRUE(holds(projector->says(), "is lit")) << projector->says();
 }
 
-TEST_P(TwoOutputs, ALeaseThatIsRefusedLeavesTheProjectorAsItWas) {
+TEST_P(TwoOutputs, ARefusedLeaseLeavesTheProjectorLit) {
     const OutputRequest request = wish("HDMI-A-1");
     Output alone(KmsCard::open(card_path, request).value(), request);
     const auto refused = [&](const std::string& connector) {
@@ -258,7 +258,7 @@ TEST_P(TwoOutputs, AScreenThatIsClosedCanBeOpenedAgain) {
     EXPECT_EQ(width_at(desk.hdmi), 320);
 }
 
-TEST_P(TwoOutputs, TheScreensFileMayOutliveTheProjectors) {
+TEST_P(TwoOutputs, TheScreensFileOutlivesTheProjectors) {
     open();
     frames(3);
     projector.reset();
@@ -319,7 +319,7 @@ std::string evening(FakeKernel& kernel, CardOnDesk& desk) {
 }
 
 /// If any one call fails once, both outputs are lit in the end, unless one must be opened again; the other is lit then too.
-TEST_P(TwoOutputs, AnyCallMayFailOnce) {
+TEST_P(TwoOutputs, RecoverFromAnySingleFailedCall) {
     const auto once = [](std::size_t call, int error, std::string& wrong) {
         FakeKernel own;
         CardOnDesk card(own.add_card(card_path));
@@ -341,7 +341,7 @@ TEST_P(TwoOutputs, AnyCallMayFailOnce) {
     }
 }
 
-TEST_P(TwoOutputs, AtTwoCardsNeitherKnowsOfTheOther) {
+TEST_P(TwoOutputs, AreIndependentOnTwoCards) {
     CardOnDesk second(kernel.add_card("/dev/dri/fake1"));
     second.card.atomic = GetParam();
     second.card.flips_at_once = false;

@@ -120,7 +120,7 @@ protected:
     Failing faults;
 };
 
-TEST_F(UdevHotplugTest, EachChangeOfACardIsHeardOnce) {
+TEST_F(UdevHotplugTest, ReportsEachChangeOfACardOnce) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     EXPECT_FALSE(hotplug->wait(at_once));
     for (const char* action : {"add", "change", "remove"}) {
@@ -130,7 +130,7 @@ TEST_F(UdevHotplugTest, EachChangeOfACardIsHeardOnce) {
     }
 }
 
-TEST_F(UdevHotplugTest, OtherDevicesAreNotHeard) {
+TEST_F(UdevHotplugTest, IgnoresOtherDevices) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     for (const char* action : {"add", "change", "remove"}) {
         send(stick, action);
@@ -140,7 +140,7 @@ TEST_F(UdevHotplugTest, OtherDevicesAreNotHeard) {
     EXPECT_TRUE(hotplug->wait(minutes(10)));
 }
 
-TEST_F(UdevHotplugTest, ABurstIsHeardAsOne) {
+TEST_F(UdevHotplugTest, MergesABurstIntoOneEvent) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     for (int k = 0; k < 8; ++k) { // umockdev's queue holds ten
         send(card, "change");
@@ -149,7 +149,7 @@ TEST_F(UdevHotplugTest, ABurstIsHeardAsOne) {
     EXPECT_FALSE(hotplug->wait(at_once));
 }
 
-TEST_F(UdevHotplugTest, ABurstThatOverflowsIsHeard) {
+TEST_F(UdevHotplugTest, ReportsAnOverflowingBurst) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     send(card, "change");
     faults.receive_once = ENOBUFS;
@@ -159,7 +159,7 @@ TEST_F(UdevHotplugTest, ABurstThatOverflowsIsHeard) {
     EXPECT_FALSE(hotplug->wait(at_once)) << "what had come is taken too";
 }
 
-TEST_F(UdevHotplugTest, AnErrorOfTheReceivingIsNoEvent) {
+TEST_F(UdevHotplugTest, AReceiveErrorIsNoEvent) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     send(card, "change");
     faults.receive_once = EIO;
@@ -168,7 +168,7 @@ TEST_F(UdevHotplugTest, AnErrorOfTheReceivingIsNoEvent) {
     EXPECT_TRUE(hotplug->wait(minutes(10))) << "it comes with the next wait";
 }
 
-TEST_F(UdevHotplugTest, ItIsWokenFromAnotherThreadAndThatIsNoEvent) {
+TEST_F(UdevHotplugTest, WakesFromAnotherThreadWithoutAnEvent) {
     const std::unique_ptr<Hotplug> hotplug = make_udev_hotplug();
     for (int k = 0; k < 20; ++k) {
         std::thread other([&] { hotplug->wake(); }); // before or during the wait
@@ -181,32 +181,32 @@ TEST_F(UdevHotplugTest, ItIsWokenFromAnotherThreadAndThatIsNoEvent) {
     EXPECT_TRUE(hotplug->wait(minutes(10))) << "both at once";
 }
 
-TEST_F(UdevHotplugTest, WithoutUdevNothingIsHeard) {
+TEST_F(UdevHotplugTest, ReportsNothingWithoutUdev) {
     failing = &faults;
     faults.udev_new = true;
     is_deaf_but_patient(true);
 }
 
-TEST_F(UdevHotplugTest, WithoutASocketNothingIsHeard) {
+TEST_F(UdevHotplugTest, ReportsNothingWithoutASocket) {
     failing = &faults;
     faults.socket = EMFILE;
     is_deaf_but_patient(true);
 }
 
-TEST_F(UdevHotplugTest, WhereTheMonitorCannotListenNothingIsHeard) {
+TEST_F(UdevHotplugTest, ReportsNothingIfTheMonitorCannotListen) {
     failing = &faults;
     faults.bind = EPERM;
     is_deaf_but_patient(true);
 }
 
-TEST_F(UdevHotplugTest, WithoutAnyDescriptorItStillWaits) {
+TEST_F(UdevHotplugTest, WaitsEvenWithoutAnyDescriptor) {
     failing = &faults;
     faults.socket = EMFILE;
     faults.eventfd = EMFILE;
     is_deaf_but_patient(false);
 }
 
-TEST_F(UdevHotplugTest, ALitCardIsAskedAgainWhenUdevSaysSo) {
+TEST_F(UdevHotplugTest, ProbesALitCardAgainOnAUdevEvent) {
     std::atomic<int> thorough{0};
     std::atomic<int> cheap{0};
     ConnectorWatch watch(

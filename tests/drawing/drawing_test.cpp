@@ -129,7 +129,7 @@ std::multiset<long> rounded_edges(const std::vector<glm::dvec2>& corners) {
     return edges;
 }
 
-TEST_F(Drawing, TheNetOfTheShippedPropHasItsSizes) {
+TEST_F(Drawing, NetOfTheShippedPropHasItsSizes) {
     // 300 and 80 mm, 155 mm high: the slant height of a side is hypot(155, 110), its edges are the hypot of
     // that and 110.
     const std::string svg = drawn("", "net");
@@ -150,7 +150,7 @@ TEST_F(Drawing, TheNetOfTheShippedPropHasItsSizes) {
     EXPECT_NE(svg.find("data-mm-per-m=\"1000\""), std::string::npos);
 }
 
-TEST_F(Drawing, EachFaceOfTheNetIsThatOfTheSettings) {
+TEST_F(Drawing, NetFacesMatchTheSettings) {
     for (const Case& each : cases) {
         SCOPED_TRACE(each.what);
         const std::string svg = drawn(each.settings, "net");
@@ -175,7 +175,7 @@ TEST_F(Drawing, EachFaceOfTheNetIsThatOfTheSettings) {
     }
 }
 
-TEST_F(Drawing, NothingOfTheNetLiesOnAnotherPart) {
+TEST_F(Drawing, NetPartsDoNotOverlap) {
     for (const Case& each : cases) {
         SCOPED_TRACE(each.what);
         const std::vector<SvgPolygon> parts = named_polygons(drawn(each.settings, "net"));
@@ -194,7 +194,7 @@ TEST_F(Drawing, NothingOfTheNetLiesOnAnotherPart) {
     }
 }
 
-TEST_F(Drawing, TheLightsCornersAreThePicturesCorners) {
+TEST_F(Drawing, PictureCornersMatchTheProjector) {
     for (const Case& each : cases) {
         SCOPED_TRACE(each.what);
         // A table that contains the whole picture cuts nothing off.
@@ -234,7 +234,7 @@ TEST_F(Drawing, TheLightsCornersAreThePicturesCorners) {
     }
 }
 
-TEST_F(Drawing, TheZoneIsThatOfTheSettings) {
+TEST_F(Drawing, ZoneMatchesTheSettings) {
     int zones = 0;
     for (const Case& each : cases) {
         SCOPED_TRACE(each.what);
@@ -255,7 +255,7 @@ TEST_F(Drawing, TheZoneIsThatOfTheSettings) {
     EXPECT_GE(zones, 2);
 }
 
-TEST_F(Drawing, TheShippedTableHasItsDimensions) {
+TEST_F(Drawing, ShippedTableHasItsDimensions) {
     const auto words = [](const std::string& svg) {
         std::multiset<std::string> all;
         for (const SvgText& each : texts(svg)) {
@@ -307,7 +307,7 @@ std::vector<glm::dvec2> places_below(const nlohmann::json& faces, double height_
     return places;
 }
 
-TEST_F(Drawing, TheHolderHoldsThePropWithHalfAMillimetreOfPlay) {
+TEST_F(Drawing, HolderLeavesHalfAMillimetreOfPlay) {
     for (const Case& each : cases) {
         SCOPED_TRACE(each.what);
         const std::string svg = drawn(each.settings, "holder");
@@ -342,7 +342,7 @@ TEST_F(Drawing, TheHolderHoldsThePropWithHalfAMillimetreOfPlay) {
     }
 }
 
-TEST_F(Drawing, NoWordsLieOnOthersOrBesideThePaper) {
+TEST_F(Drawing, WordsDoNotOverlapOrLeaveThePaper) {
     for (const Case& each : cases) {
         for (const char* sheet : {"table", "prop", "holder"}) {
             SCOPED_TRACE(std::string(each.what) + ", " + sheet);
@@ -360,7 +360,7 @@ TEST_F(Drawing, NoWordsLieOnOthersOrBesideThePaper) {
     }
 }
 
-TEST_F(Drawing, TheGuideHasTheDrawingsOfTheShippedSettings) {
+TEST_F(Drawing, CommittedGuideDrawingsAreUpToDate) {
     for (const char* sheet : {"table", "prop"}) {
         ASSERT_EQ(
             run(fmt::format("frustumscreen drawing --config '{}/config/kiosk.toml' -o drawing.svg --sheet {}",
@@ -373,7 +373,7 @@ TEST_F(Drawing, TheGuideHasTheDrawingsOfTheShippedSettings) {
     }
 }
 
-TEST_F(Drawing, ThePageOfTheTorchHasTheDrawingOfTheExample) {
+TEST_F(Drawing, CommittedTorchDrawingIsUpToDate) {
     ASSERT_EQ(
         run(fmt::format("frustumscreen drawing --config '{}/config/torch.toml' -o drawing.svg --sheet torch",
                         source_dir())),
@@ -384,7 +384,7 @@ TEST_F(Drawing, ThePageOfTheTorchHasTheDrawingOfTheExample) {
     EXPECT_EQ(text("drawing.svg"), as_text(*committed)) << "draw it again: docs/draw_guide.sh";
 }
 
-TEST_F(Drawing, SaysInOneLineWhatIsWrong) {
+TEST_F(Drawing, ReportsErrorsInOneLine) {
     put("kiosk.toml", "[prop]\ntop_m = 0.4\n");
     EXPECT_EQ(run("frustumscreen drawing --config kiosk.toml -o drawing.svg"), 1);
     EXPECT_TRUE(test::tells(text("err.txt"), {"frustumscreen: kiosk.toml:2: prop.top_m is 0.4", "0.3 metres",

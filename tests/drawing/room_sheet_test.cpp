@@ -44,7 +44,7 @@ std::vector<DrawnObject> hall() {
     return objects;
 }
 
-TEST(RoomSheet, HasEveryObjectInBothViewsAtItsPlace) {
+TEST(RoomSheet, DrawsEveryObjectInBothViewsAtItsPlace) {
     const std::vector<DrawnObject> objects = hall();
     const std::vector<SvgPolygon> drawn = named_polygons(room_sheet(with_screen(), objects, "hall.toml"));
     constexpr double written_m = 1e-4;
@@ -75,7 +75,7 @@ TEST(RoomSheet, HasEveryObjectInBothViewsAtItsPlace) {
     }
 }
 
-TEST(RoomSheet, ItsWordsNameEachObjectAndLieOnNoOthers) {
+TEST(RoomSheet, NamesEachObjectWithoutOverlap) {
     const std::vector<DrawnObject> objects = hall();
     const std::vector<SvgText> all = texts(room_sheet(with_screen(), objects, "hall.toml"));
     for (const DrawnObject& object : objects) {
@@ -94,7 +94,7 @@ TEST(RoomSheet, ItsWordsNameEachObjectAndLieOnNoOthers) {
     }
 }
 
-TEST(RoomSheet, FitsThePaperHoweverLargeTheRoomIs) {
+TEST(RoomSheet, FitsThePaperForAnyRoomSize) {
     for (const double metres : {0.4, 3.0, 30.0, 90.0}) {
         std::vector<DrawnObject> objects{box("far", {0.3 * metres, metres, 0.0}, 0.1 * metres, 0.2 * metres)};
         for (int k = 0; k < 80; ++k) {

@@ -35,7 +35,7 @@ settings::Settings with_both() {
     return settings;
 }
 
-TEST(TorchSheet, HasSensorAndTagWhereTheSettingsHaveThem) {
+TEST(TorchSheet, DrawsSensorAndTagAtTheirPlaces) {
     const std::string svg = torch_sheet(with_both(), "kiosk.toml");
     // From the side the light goes to the right and up is up: z and -y. From above: z and -x. From the front: -x and -y.
     const std::optional<glm::dvec2> side = middle_of(svg, "sensor", 0), above = middle_of(svg, "sensor", 1);
@@ -49,7 +49,7 @@ TEST(TorchSheet, HasSensorAndTagWhereTheSettingsHaveThem) {
     EXPECT_LT(glm::distance(*front, glm::dvec2(-0.004, 0.03)), written_m);
 }
 
-TEST(TorchSheet, HasWhatItsSourceNeedsAlone) {
+TEST(TorchSheet, DrawsOnlyThePartsOfItsSource) {
     settings::Settings settings = with_both();
     settings.torch.source = settings::TorchSource::Tracker;
     EXPECT_FALSE(middle_of(torch_sheet(settings, "kiosk.toml"), "tag plate", 0));
@@ -59,7 +59,7 @@ TEST(TorchSheet, HasWhatItsSourceNeedsAlone) {
     EXPECT_TRUE(middle_of(torch_sheet(settings, "kiosk.toml"), "sensor", 0));
 }
 
-TEST(TorchSheet, HasNoTextOverAnotherAndAllOnThePaper) {
+TEST(TorchSheet, TextsDoNotOverlapOrLeaveThePaper) {
     for (const settings::Settings& settings : {settings::Settings(), with_both()}) {
         const std::vector<SvgText> all = texts(torch_sheet(settings, "config/kiosk.toml"));
         EXPECT_GT(all.size(), 15U);

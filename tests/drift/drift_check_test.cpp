@@ -73,7 +73,7 @@ TEST_F(Check, LearnsFromTheFirstLooksThatAgree) {
     EXPECT_LT(check.verdict().off_m, 4e-4);
 }
 
-TEST_F(Check, WhatWasLiftedWhileItLearnedIsLeftOut) {
+TEST_F(Check, LeavesOutMarksThatWereDisplacedWhileLearning) {
     for (int k = 0; k < 3; ++k) {
         now += minutes(1);
         MarkSet set = look(now, {}, 1.5e-4, numbers);
@@ -91,7 +91,7 @@ TEST_F(Check, WhatWasLiftedWhileItLearnedIsLeftOut) {
     EXPECT_NEAR(check.verdict().off_m, 0.004, 4e-4);
 }
 
-TEST_F(Check, TellsAMoveAfterFiveMinutesAndThatItIsOver) {
+TEST_F(Check, ReportsAMoveAfterFiveLooksAndItsEnd) {
     look_at({}, 8);
     look_at({0.0025, 0.0}, 4);
     EXPECT_EQ(state(), DriftState::Well) << "four looks are not enough";
@@ -105,13 +105,13 @@ TEST_F(Check, TellsAMoveAfterFiveMinutesAndThatItIsOver) {
     EXPECT_EQ(state(), DriftState::Well);
 }
 
-TEST_F(Check, OneMillimetreIsNotTold) {
+TEST_F(Check, IgnoresAMoveOfOneMillimetre) {
     look_at({}, 8);
     look_at({0.0, 0.001}, 30);
     EXPECT_EQ(state(), DriftState::Well);
 }
 
-TEST_F(Check, LooksThatDisagreeTellNothing) {
+TEST_F(Check, IgnoresLooksThatDisagree) {
     look_at({}, 8);
     for (int k = 0; k < 20; ++k) {
         look_at({k % 2 == 0 ? 0.01 : -0.01, 0.0}, 1);
@@ -119,7 +119,7 @@ TEST_F(Check, LooksThatDisagreeTellNothing) {
     }
 }
 
-TEST_F(Check, AStoredReferenceIsHeldAgainstAfterAStart) {
+TEST_F(Check, ComparesWithTheStoredReferenceAfterARestart) {
     look_at({}, 8);
     DriftCheck after(blank());
     after.know(check.reference());
@@ -131,7 +131,7 @@ TEST_F(Check, AStoredReferenceIsHeldAgainstAfterAStart) {
     EXPECT_EQ(after.verdict().state, DriftState::Moved);
 }
 
-TEST_F(Check, MarksThatNobodySeesAreSaid) {
+TEST_F(Check, ReportsInvisibleMarksAsBlind) {
     look_at({}, 8);
     for (int k = 0; k < 5; ++k) {
         now += minutes(1);
@@ -178,7 +178,7 @@ DriftMeasure pushed(const glm::dvec2& projector_way_m, std::size_t tags, simulat
     return *measure_drift(check.reference(), set);
 }
 
-TEST(Anchors, TellTheCamerasWayFromTheProjectors) {
+TEST(Anchors, SeparateMovesOfTheCameraFromThoseOfTheProjector) {
     simulators::SeededNumbers numbers(5);
     const DriftMeasure camera_alone = pushed({}, 3, numbers);
     EXPECT_TRUE(camera_alone.anchored);
@@ -189,7 +189,7 @@ TEST(Anchors, TellTheCamerasWayFromTheProjectors) {
     EXPECT_NEAR(two_tags.off_m, 0.006, 1e-3);
 }
 
-TEST(Anchors, ATagThatSomebodyMovedIsNotBelieved) {
+TEST(Anchors, IgnoreTagsThatWereMoved) {
     simulators::SeededNumbers numbers(6);
     DriftReference reference = blank();
     const MarkSet first = look({}, {}, 0.0, numbers);
@@ -289,11 +289,11 @@ Days days(int count, std::uint64_t seed) {
     return out;
 }
 
-TEST(MuseumDays, BringNoWrongAlarm) {
+TEST(MuseumDays, CauseNoFalseAlarm) {
     EXPECT_EQ(days(60, 1).alarms, 0);
 }
 
-TEST(MuseumDays, DISABLED_OfManyYears) {
+TEST(MuseumDays, DISABLED_CauseFewFalseAlarmsOverManyYears) {
     Days all;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Days year = days(300, seed);

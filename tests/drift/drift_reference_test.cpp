@@ -17,7 +17,7 @@ DriftReference some_reference() {
     return reference;
 }
 
-TEST(DriftReference, IsReadBackAsItWasWritten) {
+TEST(DriftReference, RoundTrip) {
     const DriftReference written = some_reference();
     const Result<DriftReference> read = parse_drift_reference(drift_reference_text(written), "drift.json");
     ASSERT_TRUE(read) << read.error().message;
@@ -27,7 +27,7 @@ TEST(DriftReference, IsReadBackAsItWasWritten) {
     EXPECT_EQ(drift_reference_text(*read), drift_reference_text(written));
 }
 
-TEST(DriftReference, FitsItsOwnMarksAlone) {
+TEST(DriftReference, FitsOnlyItsOwnMarks) {
     const DriftReference one = some_reference();
     EXPECT_FALSE(one.fits({{-0.3, -0.2}, {0.3, 0.2}}));
     EXPECT_FALSE(one.fits({{-0.3, -0.2}, {0.3, 0.2}, {0.3, -0.21}}));
@@ -61,7 +61,7 @@ std::vector<glm::dvec2> marks_by(settings::Calibration& calibration) {
     return mark_places(settings);
 }
 
-TEST(DriftReference, StaysThatOfAProjectorWhateverElseIsKept) {
+TEST(DriftReference, FitsUntilTheProjectorMoves) {
     settings::Calibration calibration = some_calibration();
     DriftReference reference;
     reference.marks_m = marks_by(calibration);
@@ -75,7 +75,7 @@ TEST(DriftReference, StaysThatOfAProjectorWhateverElseIsKept) {
     EXPECT_FALSE(reference.fits(marks_by(calibration)));
 }
 
-TEST(DriftReference, WhatIsNoneIsSaid) {
+TEST(DriftReference, RejectsMalformedText) {
     const std::string good = drift_reference_text(some_reference());
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string text = good;

@@ -96,7 +96,7 @@ private:
 /// Small for speed: a pixel is 3 mm.
 constexpr int small_width = 320, small_height = 180;
 
-TEST(DriftWatch, AProjectorThatWasBumpedIsTold) {
+TEST(DriftWatch, ReportsAMovedProjector) {
     Kiosk kiosk(small_width, small_height, {});
     EXPECT_EQ(kiosk.verdict().state, DriftState::Learning);
     kiosk.run(4);
@@ -113,7 +113,7 @@ TEST(DriftWatch, AProjectorThatWasBumpedIsTold) {
     EXPECT_EQ(kiosk.verdict().state, DriftState::Learning);
 }
 
-TEST(DriftWatch, HandsAndLightTellNothing) {
+TEST(DriftWatch, IgnoresHandsAndChangesOfRoomLight) {
     SceneFaults faults;
     faults.room_change = 0.01; // a cloud: a tenth brighter within a set
     Kiosk kiosk(small_width, small_height, faults);
@@ -126,7 +126,7 @@ TEST(DriftWatch, HandsAndLightTellNothing) {
     EXPECT_GE(kiosk.verdict().marks, 7U);
 }
 
-TEST(DriftWatch, MarksAreShownWhileNobodyIsThereAlone) {
+TEST(DriftWatch, ShowsMarksOnlyWithoutVisitors) {
     Kiosk kiosk(small_width, small_height, {});
     kiosk.someone = true;
     kiosk.run(3);
@@ -136,7 +136,7 @@ TEST(DriftWatch, MarksAreShownWhileNobodyIsThereAlone) {
 
 /// As on the kiosk, frames are judged on the camera's thread while this one steps and asks. The two tell each other the time only, in
 /// an order that orders nothing else, so the thread sanitizer sees what they share beside it. The frames are dark: no mark is found.
-TEST(DriftWatch, FramesAreJudgedOnTheCamerasThread) {
+TEST(DriftWatch, ProcessesFramesOnTheCameraThread) {
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "drift_thread_test";
     DriftWatch watch({shipped_places(), {}, folder / "drift.json"});
     constexpr std::int64_t begin_ms = 100'000, frame_ms = 150;
@@ -168,7 +168,7 @@ TEST(DriftWatch, FramesAreJudgedOnTheCamerasThread) {
     EXPECT_EQ(watch.verdict().marks, 0U);
 }
 
-TEST(DriftWatch, ADamagedReferenceIsLearnedAnew) {
+TEST(DriftWatch, RelearnsADamagedReference) {
     Kiosk kiosk(small_width, small_height, {});
     ASSERT_TRUE(write_file(kiosk.folder / "drift.json", as_bytes("{")));
     kiosk.start();
@@ -195,7 +195,7 @@ void print_case(const char* name, const SceneFaults& faults, const std::vector<S
     }
 }
 
-TEST(DriftWatch, DISABLED_InRenderedScenes) {
+TEST(DriftWatch, DISABLED_PrintsAccuracyInRenderedScenes) {
     const std::vector<glm::dvec2> marks = shipped_places();
     print_case("as usual", {}, {});
     print_case("three times the noise", {.noise = 4.5}, {});

@@ -68,7 +68,7 @@ TEST(MarkFinder, FindsTheMiddleOfTheLight) {
     }
 }
 
-TEST(MarkFinder, ADimMarkIsFoundNoWorseThanItsNoiseAllows) {
+TEST(MarkFinder, FindsADimMarkWithinItsNoise) {
     Pictures pictures(1.5);
     double worst = 0.0;
     for (int k = 0; k < 10; ++k) {
@@ -80,14 +80,14 @@ TEST(MarkFinder, ADimMarkIsFoundNoWorseThanItsNoiseAllows) {
     EXPECT_LT(worst, 0.8);
 }
 
-TEST(MarkFinder, WhereNothingIsLitNothingIsFound) {
+TEST(MarkFinder, FindsNothingWithoutLight) {
     Pictures pictures(2.0);
     for (int k = 0; k < 10; ++k) {
         EXPECT_FALSE(found(pictures, {50.0, 50.0}, 0.0));
     }
 }
 
-TEST(MarkFinder, LooksInItsWindowAlone) {
+TEST(MarkFinder, SearchesOnlyItsWindow) {
     Pictures pictures(1.0);
     const PixelWindow left{{-20, 5}, {50, 80}}; // extends beyond the picture's edge
     EXPECT_TRUE(found(pictures, {30.0, 40.0}, 30.0, left));
@@ -96,7 +96,7 @@ TEST(MarkFinder, LooksInItsWindowAlone) {
     EXPECT_FALSE(found(pictures, {1.0, 40.0}, 30.0)) << "half of it is outside";
 }
 
-TEST(MarkFinder, AHandThatComesOrGoesIsNoMark) {
+TEST(MarkFinder, IgnoresAnObjectThatAppears) {
     Pictures pictures(1.0);
     MarkFinder finder;
     finder.begin();
@@ -108,7 +108,7 @@ TEST(MarkFinder, AHandThatComesOrGoesIsNoMark) {
     EXPECT_FALSE(finder.find(std::nullopt));
 }
 
-TEST(MarkFinder, LightOfTheRoomThatGrowsIsNoMarkAndHidesNone) {
+TEST(MarkFinder, FindsTheMarkWhileRoomLightGrows) {
     Pictures pictures(1.0);
     MarkFinder finder;
     finder.begin();
@@ -122,7 +122,7 @@ TEST(MarkFinder, LightOfTheRoomThatGrowsIsNoMarkAndHidesNone) {
     EXPECT_LT(glm::distance(mark->pixel, glm::dvec2(60.0, 45.0)), 0.2);
 }
 
-TEST(MarkFinder, TheDarkAfterOneIsTheDarkBeforeTheNext) {
+TEST(MarkFinder, UsesTheDarkAfterAMarkForTheNextOne) {
     Pictures pictures;
     MarkFinder finder;
     finder.begin();
@@ -145,7 +145,7 @@ TEST(MarkFinder, TheDarkAfterOneIsTheDarkBeforeTheNext) {
     EXPECT_EQ(dark, pictures.dark());
 }
 
-TEST(MarkFinder, FramesThatAreShorterThanTheySayAreLeftOut) {
+TEST(MarkFinder, IgnoresTruncatedFrames) {
     MarkFinder finder;
     finder.begin();
     const std::vector<std::uint8_t> none;

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 constexpr std::size_t marks = 4;
 constexpr milliseconds frame{20};
 
-TEST(MarkSchedule, ASetBeginsOnceNobodyHasBeenThereForAWhile) {
+TEST(MarkSchedule, StartsASetAfterAQuietTime) {
     MarkSchedule schedule(marks);
     MonotonicTime now{};
     std::optional<MonotonicTime> first;
@@ -33,7 +33,7 @@ TEST(MarkSchedule, ASetBeginsOnceNobodyHasBeenThereForAWhile) {
     EXPECT_EQ(shown, (std::set<std::size_t>{0, 1, 2, 3}));
 }
 
-TEST(MarkSchedule, SetsComeOnceAMinute) {
+TEST(MarkSchedule, StartsASetEachMinute) {
     MarkSchedule schedule(marks);
     std::set<std::int64_t> sets;
     for (MonotonicTime now{}; now < MonotonicTime(std::chrono::minutes(10)); now += frame) {
@@ -45,7 +45,7 @@ TEST(MarkSchedule, SetsComeOnceAMinute) {
     EXPECT_EQ(sets.size(), 10U);
 }
 
-TEST(MarkSchedule, WhoeverComesEndsItAtOnce) {
+TEST(MarkSchedule, EndsASetWhenAVisitorArrives) {
     MarkSchedule schedule(marks);
     MonotonicTime now{};
     while (!schedule.step(now, true)) {
@@ -57,7 +57,7 @@ TEST(MarkSchedule, WhoeverComesEndsItAtOnce) {
     EXPECT_FALSE(schedule.step(now + seconds(10), true)) << "the next one comes a minute later";
 }
 
-TEST(MarkTimes, FramesAreUsedOnlyWhileWhatTheyShowStands) {
+TEST(MarkTimes, UseFramesOnlyWhileTheLightIsSteady) {
     std::size_t lit = 0, dark = 0, unused = 0;
     for (milliseconds t{0}; t < MarkTimes::length(marks); t += milliseconds(1)) {
         const auto moment = MarkTimes::moment(t, marks);
@@ -83,7 +83,7 @@ TEST(MarkTimes, FramesAreUsedOnlyWhileWhatTheyShowStands) {
     EXPECT_FALSE(MarkTimes::moment(milliseconds(-1), marks));
 }
 
-TEST(MarkTimes, AMarkComesAndGoesSoftly) {
+TEST(MarkTimes, FadeMarksInAndOut) {
     EXPECT_EQ(MarkTimes::brightness(milliseconds(0)), 0.0);
     EXPECT_NEAR(MarkTimes::brightness(MarkTimes::fade / 2), 0.5, 1e-9);
     EXPECT_EQ(MarkTimes::brightness(MarkTimes::lit / 2), 1.0);

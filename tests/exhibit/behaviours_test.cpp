@@ -54,7 +54,7 @@ struct Rules {
     }
 };
 
-TEST(BehaviourTriggers, AButtonGoesThroughItsBehavioursInTurn) {
+TEST(BehaviourTriggers, ButtonCyclesThroughItsBehaviours) {
     Rules rules{{behaviour(Trigger::Button), behaviour(Trigger::Dwell), behaviour(Trigger::Button),
                  behaviour(Trigger::Button)}};
     EXPECT_EQ(rules.press(), "") << "the artifact is not there yet";
@@ -71,7 +71,7 @@ TEST(BehaviourTriggers, AButtonGoesThroughItsBehavioursInTurn) {
     EXPECT_EQ(none.press(), "");
 }
 
-TEST(BehaviourTriggers, APropThatStandsBeginsAndOneThatGoesOnEndsWhatLasts) {
+TEST(BehaviourTriggers, DwellStartsAndMovementEndsLastingBehaviours) {
     Rules rules{{behaviour(Trigger::Dwell), behaviour(Trigger::Dwell, true)}};
     rules.input.rested = BehaviourTriggers::dwell - milliseconds(1);
     EXPECT_EQ(rules.step(), "");
@@ -85,7 +85,7 @@ TEST(BehaviourTriggers, APropThatStandsBeginsAndOneThatGoesOnEndsWhatLasts) {
     EXPECT_EQ(rules.step(), "+0+1");
 }
 
-TEST(BehaviourTriggers, AHotspotsLabelBeginsItsOwn) {
+TEST(BehaviourTriggers, HotspotLabelStartsItsBehaviour) {
     Rules rules{{behaviour(Trigger::Hotspot, true), behaviour(Trigger::Hotspot)}};
     rules.behaviours[0].hotspot = 3;
     rules.behaviours[1].hotspot = 1;
@@ -99,7 +99,7 @@ TEST(BehaviourTriggers, AHotspotsLabelBeginsItsOwn) {
     EXPECT_EQ(rules.step(), "");
 }
 
-TEST(BehaviourTriggers, AMarkInTheDescriptionCountsFromTheFirstSound) {
+TEST(BehaviourTriggers, NarrationMarkCountsFromTheFirstSound) {
     Rules rules{{behaviour(Trigger::Narration, true)}};
     rules.behaviours[0].narration_s = 2.5;
     rules.input.tells = true;
@@ -118,7 +118,7 @@ TEST(BehaviourTriggers, AMarkInTheDescriptionCountsFromTheFirstSound) {
     EXPECT_EQ(rules.step(milliseconds(2500)), "+0");
 }
 
-TEST(BehaviourTriggers, AnArtifactThatArrivesBeginsOnce) {
+TEST(BehaviourTriggers, ArrivalStartsBehavioursOnce) {
     Rules rules{{behaviour(Trigger::Arrival)}};
     rules.input.attracts = true; // from the start on: artifacts in turn
     EXPECT_EQ(rules.step(), "");
@@ -132,7 +132,7 @@ TEST(BehaviourTriggers, AnArtifactThatArrivesBeginsOnce) {
     EXPECT_EQ(rules.step(), "+0");
 }
 
-TEST(BehaviourTriggers, WhenTheVisitorHasGoneAllEndsUntilSomethingComes) {
+TEST(BehaviourTriggers, EndsAllWhenTheVisitorLeavesAndRestartsOnReturn) {
     Rules rules{{behaviour(Trigger::Arrival, true), behaviour(Trigger::Button)}};
     rules.input.arrived = true;
     EXPECT_EQ(rules.step(), "+0");
@@ -186,7 +186,7 @@ struct Visit {
     }
 };
 
-TEST(Behaviours, OfAVisitBeginAndEnd) {
+TEST(Behaviours, StartAndEndDuringAVisit) {
     Visit visit;
     EXPECT_EQ(visit.run(seconds(1)), "+2") << "it arrives";
     visit.x = 0.02;
@@ -200,7 +200,7 @@ TEST(Behaviours, OfAVisitBeginAndEnd) {
     EXPECT_EQ(visit.run(seconds(1), {settings::Command::PreviousArtifact}), "+2");
 }
 
-TEST(Behaviours, EndWhenTheVisitorHasGone) {
+TEST(Behaviours, EndWhenTheVisitorLeaves) {
     Visit visit;
     visit.run(seconds(1));
     visit.x = 0.02;
@@ -212,7 +212,7 @@ TEST(Behaviours, EndWhenTheVisitorHasGone) {
     EXPECT_EQ(visit.run(seconds(1)).substr(0, 2), "+2");
 }
 
-TEST(Behaviours, ATitleSaysWhatTheButtonDoes) {
+TEST(Behaviours, TitleNamesTheButtonsBehaviour) {
     Visit visit;
     visit.run(seconds(1));
     visit.x = 0.02;
@@ -237,7 +237,7 @@ TEST(Behaviours, ATitleSaysWhatTheButtonDoes) {
     EXPECT_FALSE(without.shown.title) << "there is no button";
 }
 
-TEST(Behaviours, EndWithTheStaffPictureAndComeBackAfterIt) {
+TEST(Behaviours, EndInStaffModeAndRestartAfterIt) {
     Visit visit;
     visit.run(seconds(1));
     EXPECT_EQ(visit.run(milliseconds(20), {settings::Command::StaffMode}), "0");
@@ -246,7 +246,7 @@ TEST(Behaviours, EndWithTheStaffPictureAndComeBackAfterIt) {
 }
 
 /// No behaviour starts twice without an end or a rest between, and nothing allocates.
-TEST(Behaviours, AtRandomPressesAndMovements) {
+TEST(Behaviours, NeitherStartTwiceNorAllocateOnRandomInput) {
     Visit visit;
     visit.run(seconds(1));
     std::mt19937 random(3);

@@ -53,7 +53,7 @@ bool lands_on_prop(const geometry::PropShape& prop, const geometry::RigidTransfo
     return false;
 }
 
-TEST(Captions, TheShadowHoldsExactlyTheTablePointsWhoseRayMeetsTheProp) {
+TEST(Captions, ShadowMatchesTheRaysThatMeetTheProp) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> x(-0.3, 0.3);
     std::uniform_real_distribution<double> turn(-3.2, 3.2);
@@ -82,7 +82,7 @@ TEST(Captions, TheShadowHoldsExactlyTheTablePointsWhoseRayMeetsTheProp) {
     }
 }
 
-TEST(Captions, AShownCaptionNeverOverlapsThePropHoweverItJumps) {
+TEST(Captions, NeverOverlapAJumpingProp) {
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> x(-0.32, 0.32);
     std::uniform_real_distribution<double> y(-0.17, 0.17);
@@ -114,7 +114,7 @@ TEST(Captions, AShownCaptionNeverOverlapsThePropHoweverItJumps) {
     EXPECT_GT(shown, 300);
 }
 
-TEST(Captions, AtRestACaptionIsShownInFrontOfTheVisitorOnBothSetUps) {
+TEST(Captions, VisibleForARestingPropOnBothSetUps) {
     for (const auto& [picture_m, height] : {std::pair{shipped_table, 1.2}, std::pair{near_table, 0.9}}) {
         Table table(picture_m);
         table.lens_m.z = height;
@@ -131,7 +131,7 @@ TEST(Captions, AtRestACaptionIsShownInFrontOfTheVisitorOnBothSetUps) {
     }
 }
 
-TEST(Captions, ItStaysPutWhileThePropMovesElsewhere) {
+TEST(Captions, StayInPlaceWhileThePropMovesElsewhere) {
     Table table(shipped_table);
     const std::array<glm::dvec2, 1> sizes{glm::dvec2(0.20, 0.05)};
     table.placer.set_shapes(sizes);
@@ -146,7 +146,7 @@ TEST(Captions, ItStaysPutWhileThePropMovesElsewhere) {
     }
 }
 
-TEST(Captions, ItLeavesBeforeAHandMovesThePropOverItAndComesBackElsewhere) {
+TEST(Captions, FadeToAnotherPlaceWhenThePropMovesOverThem) {
     Table table(shipped_table);
     const std::array<glm::dvec2, 1> sizes{glm::dvec2(0.20, 0.05)};
     table.placer.set_shapes(sizes);
@@ -170,7 +170,7 @@ TEST(Captions, ItLeavesBeforeAHandMovesThePropOverItAndComesBackElsewhere) {
     EXPECT_LT(largest_step, 0.35); // eased, not switched
 }
 
-TEST(Captions, WithoutRoomOrUnderALowLensNothingIsShown) {
+TEST(Captions, HiddenWithoutRoomAndNoShadowUnderALowLens) {
     Table table(near_table);
     const std::array<glm::dvec2, 1> sizes{glm::dvec2(0.5, 0.05)};
     table.placer.set_shapes(sizes);
@@ -178,7 +178,7 @@ TEST(Captions, WithoutRoomOrUnderALowLensNothingIsShown) {
     EXPECT_FALSE(typography::hidden_by_prop(table.prop, standing(0, 0, 0), {0.0, 0.0, 0.1}));
 }
 
-TEST(Captions, TheDistanceBetweenShapesIsTheLeastBetweenTheirPoints) {
+TEST(Captions, ClearanceEqualsTheGapBetweenRectangles) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> x(-1.0, 1.0);
     for (int k = 0; k < 300; ++k) {
@@ -212,7 +212,7 @@ TEST(Captions, TypeIsNeverSmallerThanTwentyFourPoint) {
     EXPECT_NEAR(caption.size_m.y * texels_per_m, caption.coverage.height, 1e-9);
 }
 
-TEST(Captions, TheTitleStandsOverTheTextAndBothKeepTheirWidth) {
+TEST(Captions, FitTheWidthAndGrowTallerWhenNarrow) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     const std::string text =
@@ -226,7 +226,7 @@ TEST(Captions, TheTitleStandsOverTheTextAndBothKeepTheirWidth) {
     EXPECT_GT(narrow.size_m.y, 1.5 * wide.size_m.y);
 }
 
-TEST(HiddenByProp, HoldsTheShadowOfEachCornerOfAGem) {
+TEST(HiddenByProp, ContainsTheShadowOfEachCornerOfAGem) {
     geometry::PropShape gem;
     for (int k = 0; k < 28; ++k) { // two rings, the upper one narrower
         const double angle = 2.0 * std::numbers::pi * k / 14.0;

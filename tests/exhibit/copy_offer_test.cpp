@@ -53,7 +53,7 @@ protected:
     MonotonicTime now = start;
 };
 
-TEST_F(Offer, WaitsForAStickThatWaits) {
+TEST_F(Offer, BeginsWhenAStickRequestsACopy) {
     EXPECT_EQ(offer.step(now).stage, CopyStage::NoStick);
     EXPECT_EQ(take(told("stick1", ImportStage::Found)), CopyStage::Looking);
     EXPECT_EQ(take(told("stick1", ImportStage::Copying)), CopyStage::Looking);
@@ -69,7 +69,7 @@ TEST_F(Offer, WaitsForAStickThatWaits) {
     EXPECT_EQ(take(full), CopyStage::Offered);
 }
 
-TEST_F(Offer, OtherRequestsOfferNothing) {
+TEST_F(Offer, IgnoresOtherRequests) {
     const std::string request(library::copy_request_name);
     EXPECT_EQ(take(told("stick1", ImportStage::Done, {line(request, ImportOutcome::Pending)})),
               CopyStage::NoRequest)
@@ -82,7 +82,7 @@ TEST_F(Offer, OtherRequestsOfferNothing) {
     EXPECT_EQ(take(told("stick3", ImportStage::Done, {pack})), CopyStage::NoRequest);
 }
 
-TEST_F(Offer, StandsTenMinutes) {
+TEST_F(Offer, ExpiresAfterTenMinutes) {
     static_cast<void>(take(waiting("stick1")));
     EXPECT_EQ(after(minutes(5)), CopyStage::Offered);
     EXPECT_EQ(take(waiting("stick1")), CopyStage::Offered) << "the same report does not prolong it";
@@ -93,7 +93,7 @@ TEST_F(Offer, StandsTenMinutes) {
     EXPECT_EQ(take(waiting("stick2"), true), CopyStage::NoStick) << "the report was there before the exhibit";
 }
 
-TEST_F(Offer, FollowsTheConfirmedStickToItsEnd) {
+TEST_F(Offer, TracksTheConfirmedStickUntilItIsWritten) {
     static_cast<void>(take(waiting("stick1")));
     offer.confirm(now);
     EXPECT_FALSE(offer.is_offered());
@@ -115,7 +115,7 @@ TEST_F(Offer, FollowsTheConfirmedStickToItsEnd) {
     EXPECT_EQ(take(told("stick3", ImportStage::Found)), CopyStage::Looking);
 }
 
-TEST_F(Offer, SaysWhyNothingIsWritten) {
+TEST_F(Offer, ReportsWhyNothingWasWritten) {
     const auto ends_with = [this](const library::ImportReport& report) {
         static_cast<void>(take(waiting("stick1")));
         offer.confirm(now);
@@ -135,7 +135,7 @@ TEST_F(Offer, SaysWhyNothingIsWritten) {
     EXPECT_NE(ends_with(told("stick1.staff", ImportStage::Done)), "");
 }
 
-TEST_F(Offer, AStickThatSaysNothingMoreIsGivenUp) {
+TEST_F(Offer, TimesOutWhenAStickStopsReporting) {
     static_cast<void>(take(told("stick1", ImportStage::Found)));
     EXPECT_EQ(after(CopyOffer::timeout), CopyStage::NoStick);
     static_cast<void>(take(waiting("stick1")));

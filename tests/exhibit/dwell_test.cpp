@@ -58,7 +58,7 @@ glm::dvec2 noise(Random& random) {
     return {normal(random), normal(random)};
 }
 
-TEST(Dwell, ARingFillsInASecondAndAHalfAndThePictureIsChosenOnce) {
+TEST(Dwell, RingFillsIn1500MsAndChoosesOnce) {
     const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     ASSERT_EQ(pictures.size(), 12U);
     Dwell dwell;
@@ -83,7 +83,7 @@ TEST(Dwell, ARingFillsInASecondAndAHalfAndThePictureIsChosenOnce) {
     EXPECT_NEAR(chosen_s.front(), 1.7, 0.017);
 }
 
-TEST(Dwell, TheRingEmptiesSoftlyWhenThePropGoesOnAndNothingIsChosen) {
+TEST(Dwell, RingEmptiesSmoothlyWhenThePropMovesOn) {
     const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     double before = 0.0;
@@ -105,7 +105,7 @@ TEST(Dwell, TheRingEmptiesSoftlyWhenThePropGoesOnAndNothingIsChosen) {
     EXPECT_LT(gone_s, 2.0);
 }
 
-TEST(Dwell, AChosenPictureIsRefusedUntilThePropHasLeftIt) {
+TEST(Dwell, IgnoresAChosenPictureUntilThePropLeavesIt) {
     const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     std::vector<std::size_t> chosen;
@@ -127,7 +127,7 @@ TEST(Dwell, AChosenPictureIsRefusedUntilThePropHasLeftIt) {
     EXPECT_EQ(chosen, (std::vector<std::size_t>{3, 4, 4}));
 }
 
-TEST(Dwell, PicturesThatComeToLieUnderThePropAreRefusedUntilItHasLeft) {
+TEST(Dwell, IgnoresPicturesThatAppearUnderTheProp) {
     const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
     bool chosen = false;
@@ -142,7 +142,7 @@ TEST(Dwell, PicturesThatComeToLieUnderThePropAreRefusedUntilItHasLeft) {
     EXPECT_FALSE(chosen);
 }
 
-TEST(Dwell, APropThatIsLiftedOrLostRestsNowhere) {
+TEST(Dwell, IgnoresALiftedOrLostProp) {
     const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
     EXPECT_EQ(standing_place(prop, {{1, 0, 0, 0}, {0.1, 0.2, 0.0}}), glm::dvec2(0.1, 0.2));
     EXPECT_FALSE(standing_place(prop, {{1, 0, 0, 0}, {0.1, 0.2, 0.03}}));
@@ -237,7 +237,7 @@ struct RestingHand {
     double amplitude, direction, hz, beat_hz, phase, drift_m_s, drift_direction;
 };
 
-TEST(Dwell, WhoRestsOnAPictureGetsItWithinEighteenTenthsOfASecond) {
+TEST(Dwell, ChoosesARestedPictureWithin1800Ms) {
     const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Random random(23);
     constexpr int people = 4000;
@@ -304,7 +304,7 @@ std::vector<glm::dvec2> some_way(Random& random, const std::vector<tracker::Pose
     return way;
 }
 
-TEST(Dwell, RecordedHandsThatGoOverTheTableChooseNothingByAccident) {
+TEST(Dwell, RecordedHandMovementsChooseNothingByAccident) {
     const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Random random(24);
     int accidents = 0;

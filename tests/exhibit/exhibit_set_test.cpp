@@ -49,7 +49,7 @@ protected:
     Presentation shown;
 };
 
-TEST_F(AnotherSet, IsShownThroughDarknessInTheSameLanguageAndState) {
+TEST_F(AnotherSet, FadesInKeepingLanguageAndState) {
     visit();
     run(seconds(1), {settings::Command::NextLanguage});
     ASSERT_EQ(shown.language, "de");
@@ -82,7 +82,7 @@ TEST_F(AnotherSet, IsShownThroughDarknessInTheSameLanguageAndState) {
     EXPECT_EQ(shown.artifact, 0U); // the set has two
 }
 
-TEST_F(AnotherSet, ThatHasTheHousesLanguageAgainIsInThat) {
+TEST_F(AnotherSet, ReturnsToTheDefaultLanguageWhenAvailable) {
     visit();
     exhibit.await_set(true);
     leaves_within(seconds(1));
@@ -96,7 +96,7 @@ TEST_F(AnotherSet, ThatHasTheHousesLanguageAgainIsInThat) {
     EXPECT_EQ(shown.language, "en");
 }
 
-TEST_F(AnotherSet, WaitsForTheNextTurnWhereNobodyIs) {
+TEST_F(AnotherSet, WaitsForTheNextTurnWithoutAVisitor) {
     while (shown.state != State::Attract || shown.artifact == 0) {
         run(milliseconds(20));
         ASSERT_LT(now, sample::start + seconds(200));
@@ -109,13 +109,13 @@ TEST_F(AnotherSet, WaitsForTheNextTurnWhereNobodyIs) {
     EXPECT_EQ(shown.artifact, artifact); // no other one was shown in between
 }
 
-TEST_F(AnotherSet, ComesAtOnceWhereAVisitorLooks) {
+TEST_F(AnotherSet, ReplacesTheSetAtOnceForAVisitor) {
     visit();
     exhibit.await_set(true);
     EXPECT_LE(leaves_within(seconds(5)), fade_time + milliseconds(60));
 }
 
-TEST_F(AnotherSet, DoesNotComeInTheMiddleOfAChange) {
+TEST_F(AnotherSet, WaitsForAChangeOfArtifactToFinish) {
     visit();
     exhibit.await_set(true);
     run(milliseconds(20), {settings::Command::NextArtifact});
@@ -123,7 +123,7 @@ TEST_F(AnotherSet, DoesNotComeInTheMiddleOfAChange) {
     EXPECT_GE(leaves_within(seconds(5)), 3 * fade_time - milliseconds(60));
 }
 
-TEST_F(AnotherSet, IsNotShownIfItIsNoLongerReady) {
+TEST_F(AnotherSet, IsNotShownUnlessReady) {
     visit();
     exhibit.await_set(false);
     run(seconds(5));
@@ -131,7 +131,7 @@ TEST_F(AnotherSet, IsNotShownIfItIsNoLongerReady) {
     EXPECT_EQ(shown.set_share, 1.0);
 }
 
-TEST_F(AnotherSet, WaitsForSpeechButNotForEver) {
+TEST_F(AnotherSet, WaitsForSpeechUpToALimit) {
     visit();
     exhibit.hear(true);
     exhibit.await_set(true);
@@ -149,7 +149,7 @@ TEST_F(AnotherSet, WaitsForSpeechButNotForEver) {
     EXPECT_LE(waited, SetChange::longest_wait + seconds(1));
 }
 
-TEST_F(AnotherSet, ThatHasToLoadWhatIsChosenDoesNotWaitAnew) {
+TEST_F(AnotherSet, KeepsItsWaitingTimeWhileItLoads) {
     visit();
     exhibit.hear(true); // and never ends
     exhibit.await_set(true);
@@ -162,7 +162,7 @@ TEST_F(AnotherSet, ThatHasToLoadWhatIsChosenDoesNotWaitAnew) {
     EXPECT_LE(now - from, SetChange::longest_wait + seconds(1));
 }
 
-TEST_F(AnotherSet, ThatComesNoMoreHasNotWaitedForTheNextOne) {
+TEST_F(AnotherSet, RestartsTheWaitAfterAWithdrawnSet) {
     visit();
     exhibit.hear(true);
     exhibit.await_set(true);
@@ -174,7 +174,7 @@ TEST_F(AnotherSet, ThatComesNoMoreHasNotWaitedForTheNextOne) {
     EXPECT_GE(leaves_within(seconds(60)), SetChange::longest_wait);
 }
 
-TEST_F(AnotherSet, ComesBehindTheStaffsPattern) {
+TEST_F(AnotherSet, KeepsTheStaffPatternOnScreen) {
     visit();
     run(milliseconds(20), {settings::Command::StaffMode});
     ASSERT_TRUE(shown.staff);

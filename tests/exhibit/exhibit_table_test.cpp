@@ -56,7 +56,7 @@ struct Table {
     }
 };
 
-TEST(ExhibitTable, WhatThePropRestsOnIsShownInIt) {
+TEST(ExhibitTable, ShowsThePictureThatThePropRestsOn) {
     Table table(5);
     table.wait(milliseconds(800));
     ASSERT_NE(table.shown.table, nullptr);
@@ -73,7 +73,7 @@ TEST(ExhibitTable, WhatThePropRestsOnIsShownInIt) {
     EXPECT_EQ(table.bright(), (std::set<std::size_t>{0, 1, 2, 4}));
 }
 
-TEST(ExhibitTable, ButtonsAndRestsGoTogether) {
+TEST(ExhibitTable, ChoosesByButtonsAndByRest) {
     Table table(4);
     table.wait(milliseconds(800));
     table.wait(milliseconds(800), std::array{settings::Command::NextArtifact});
@@ -87,7 +87,7 @@ TEST(ExhibitTable, ButtonsAndRestsGoTogether) {
     EXPECT_EQ(table.shown.artifact, 3U);
 }
 
-TEST(ExhibitTable, AStaffsPatternAndALostPropChooseNothing) {
+TEST(ExhibitTable, ChoosesNothingInStaffModeOrWithALostProp) {
     Table table(4);
     table.wait(milliseconds(800));
     table.put(table.place_of(2));
@@ -104,7 +104,7 @@ TEST(ExhibitTable, AStaffsPatternAndALostPropChooseNothing) {
     EXPECT_EQ(lost.shown.artifact, 0U);
 }
 
-TEST(ExhibitTable, TheCaptionLiesBesideThePictures) {
+TEST(ExhibitTable, CaptionLiesBesideThePictures) {
     Table table(10);
     for (int side = 0; side < 4; ++side) {
         const double azimuth = 1.5707963267948966 * (side - 1);
@@ -140,7 +140,7 @@ TEST(ExhibitTable, AStepAllocatesNothing) {
     EXPECT_EQ(table.shown.artifact, 5U);
 }
 
-TEST(ExhibitTable, WithoutPicturesThereIsNoTable) {
+TEST(ExhibitTable, IsAbsentWithoutPictures) {
     Exhibit exhibit = sample::exhibit(3, {"en"});
     EXPECT_EQ(exhibit.step(start + milliseconds(16), {}, sample::tracked_state(start)).table, nullptr);
 }

@@ -88,7 +88,7 @@ protected:
     int advised_ = 0;
 };
 
-TEST_F(NarrationExhibit, ChooseTellsOneThingAfterTheOther) {
+TEST_F(NarrationExhibit, ChooseStepsThroughDescriptionAndHotspots) {
     run(seconds(2));
     EXPECT_FALSE(describes());
     run(milliseconds(20), {settings::Command::Choose});
@@ -113,7 +113,7 @@ TEST_F(NarrationExhibit, ChooseTellsOneThingAfterTheOther) {
     EXPECT_FALSE(shown.tells_of);
 }
 
-TEST_F(NarrationExhibit, ALanguageThatRunsToTheLeftBeginsAtTheRight) {
+TEST_F(NarrationExhibit, RightToLeftCaptionStaysFlushRight) {
     run(seconds(2), {settings::Command::NextLanguage});
     run(seconds(1), {settings::Command::Help});
     ASSERT_TRUE(describes());
@@ -124,7 +124,7 @@ TEST_F(NarrationExhibit, ALanguageThatRunsToTheLeftBeginsAtTheRight) {
     EXPECT_LT(glm::distance(shown.caption->rectangle.corners()[2], begin), 1e-12);
 }
 
-TEST_F(NarrationExhibit, RestTellsAndPlayDoesNot) {
+TEST_F(NarrationExhibit, NarratesWhileThePropRestsAndNotDuringPlay) {
     x_ = 0.01;
     run(seconds(1));
     for (int k = 0; k < 20; ++k) {
@@ -137,7 +137,7 @@ TEST_F(NarrationExhibit, RestTellsAndPlayDoesNot) {
     EXPECT_EQ(shown.prepares, shown.tells);
 }
 
-TEST_F(NarrationExhibit, AnotherArtifactEndsItAndTheLampsSayWhatThereIs) {
+TEST_F(NarrationExhibit, EndsOnAnotherArtifactAndUpdatesLamps) {
     run(seconds(1), {settings::Command::Help});
     EXPECT_TRUE(shown.tells);
     EXPECT_EQ(shown.lamps & (choose_lamp | help_lamp), choose_lamp | help_lamp);
@@ -149,7 +149,7 @@ TEST_F(NarrationExhibit, AnotherArtifactEndsItAndTheLampsSayWhatThereIs) {
     EXPECT_EQ(shown.lamps & (choose_lamp | help_lamp), 0U);
 }
 
-TEST_F(NarrationExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptionUntilThen) {
+TEST_F(NarrationExhibit, DescriptionYieldsToAdviceAtAPause) {
     run(seconds(2), {settings::Command::Choose});
     x_ = 0.3;
     bool left_in_words = false;
@@ -170,7 +170,7 @@ TEST_F(NarrationExhibit, ADescriptionGivesWayToAdviceAtItsPauseAndKeepsItsCaptio
     EXPECT_EQ(advised_, 1);
 }
 
-TEST_F(NarrationExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
+TEST_F(NarrationExhibit, HelpGivesAvailableAdviceAtOnce) {
     run(seconds(2));
     x_ = 0.3;
     run(milliseconds(100)); // too early for a sign
@@ -185,7 +185,7 @@ TEST_F(NarrationExhibit, HelpGivesAdviceAtOnceWhereThereIsSome) {
     EXPECT_EQ(advised_, 1) << "it is said once";
 }
 
-TEST_F(NarrationExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
+TEST_F(NarrationExhibit, HelpReplacesADescriptionByAdvice) {
     run(seconds(2), {settings::Command::Help});
     EXPECT_TRUE(shown.tells);
     x_ = 0.3;
@@ -197,7 +197,7 @@ TEST_F(NarrationExhibit, HelpEndsADescriptionWhereThereIsAdvice) {
     EXPECT_EQ(advised_, 1);
 }
 
-TEST_F(NarrationExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
+TEST_F(NarrationExhibit, EndsASecondAfterThePropOrHeadIsLost) {
     run(seconds(2), {settings::Command::Choose});
     lost_ = now_;
     run(milliseconds(900));
@@ -215,7 +215,7 @@ TEST_F(NarrationExhibit, ThePropTakenAwayAndTheHeadThatGoesEndItAtAPause) {
     EXPECT_FALSE(shown.tells);
 }
 
-TEST_F(NarrationExhibit, NobodyIsToldAnythingAfterARest) {
+TEST_F(NarrationExhibit, NarratesOnlyInTheDescribeState) {
     ExhibitPlace hasty = place();
     hasty.rest = seconds(10);
     with(catalogue(), hasty);
@@ -227,7 +227,7 @@ TEST_F(NarrationExhibit, NobodyIsToldAnythingAfterARest) {
     EXPECT_EQ(shown.state, State::Attract);
 }
 
-TEST_F(NarrationExhibit, WhatCannotBeReadIsNotHeardForLong) {
+TEST_F(NarrationExhibit, StopsWhenTheCaptionDoesNotFit) {
     Catalogue catalogue_of_long_texts = catalogue();
     const std::vector<std::vector<glm::dvec2>> too_large(3, {{2.0, 1.0}});
     catalogue_of_long_texts[0].descriptions[0] = {too_large, largest_sizes(too_large), false};
@@ -239,14 +239,14 @@ TEST_F(NarrationExhibit, WhatCannotBeReadIsNotHeardForLong) {
     EXPECT_TRUE(shown.caption) << "the short text is back";
 }
 
-TEST_F(NarrationExhibit, TheStaffsPatternEndsIt) {
+TEST_F(NarrationExhibit, EndsInStaffMode) {
     run(seconds(2), {settings::Command::Choose});
     run(milliseconds(20), {settings::Command::StaffMode});
     EXPECT_FALSE(shown.tells || shown.leaves);
 }
 
 /// While the prop rests on a picture, Choose takes that picture and tells nothing.
-TEST(NarrationTable, ChooseTakesThePictureThatTheRingHasBegunOn) {
+TEST(NarrationTable, ChooseSelectsThePictureUnderTheRing) {
     ExhibitPlace where = place();
     where.prop = geometry::make_frustum({0.10, 0.06, 0.05});
     where.guidance.reset();

@@ -53,7 +53,7 @@ Presentation settled(Exhibit& exhibit, MonotonicTime now) {
     return exhibit.step(end, {}, tracked_state(end));
 }
 
-TEST(Exhibit, EachCommandDoesWhatTheTableSays) {
+TEST(Exhibit, EachCommandHasTheTabulatedEffect) {
     for (const Row& row : table) {
         Exhibit exhibit = sample::exhibit(4, languages);
         MonotonicTime now = start;
@@ -110,7 +110,7 @@ private:
     std::array<int, 3> counted_{};
 };
 
-TEST(Exhibit, EndsWhereAllThePressesLead) {
+TEST(Exhibit, RandomPressesMatchACountingModel) {
     for (unsigned seed = 0; seed < 300; ++seed) {
         std::mt19937 random(seed);
         const std::size_t buttons = 2 + seed % 2;
@@ -135,7 +135,7 @@ TEST(Exhibit, EndsWhereAllThePressesLead) {
     }
 }
 
-TEST(Exhibit, TheStaffsPictureEndsByItself) {
+TEST(Exhibit, StaffPictureTimesOut) {
     Exhibit exhibit = sample::exhibit(2, languages);
     const std::array chord{settings::Command::StaffMode};
     const auto staff_at = [&](MonotonicTime now) { return exhibit.step(now, {}, tracked_state(now)).staff; };
@@ -148,7 +148,7 @@ TEST(Exhibit, TheStaffsPictureEndsByItself) {
 }
 
 /// From the chord to the table's calibration, and the effect of its presses.
-TEST(Exhibit, TheStaffAskForACalibrationWhereThePlaceIsShown) {
+TEST(Exhibit, StaffRequestCalibrationOnThePlacePage) {
     Exhibit exhibit = sample::exhibit(2, languages);
     MonotonicTime now = start;
     const auto step = [&](std::initializer_list<settings::Command> commands) {
@@ -173,7 +173,7 @@ TEST(Exhibit, TheStaffAskForACalibrationWhereThePlaceIsShown) {
     EXPECT_EQ(exhibit.language(), "en");
 }
 
-TEST(Exhibit, WithoutACalibrationTheStaffsPictureStays) {
+TEST(Exhibit, StaffPictureStaysWithoutACalibration) {
     ExhibitPlace place = sample::place();
     place.buttons = 3;
     place.staff_stays = true;
@@ -185,7 +185,7 @@ TEST(Exhibit, WithoutACalibrationTheStaffsPictureStays) {
     EXPECT_FALSE(exhibit.step(later, chord, tracked_state(later)).staff);
 }
 
-TEST(Exhibit, AVisitorsLongPressIsNoSecondPress) {
+TEST(Exhibit, LongPressIsNotASecondPress) {
     Exhibit exhibit = sample::exhibit(4, languages);
     static_cast<void>(exhibit.step(start, std::array{settings::Command::NextArtifact}, tracked_state(start)));
     const MonotonicTime pressed = *exhibit.used();
@@ -195,7 +195,7 @@ TEST(Exhibit, AVisitorsLongPressIsNoSecondPress) {
     EXPECT_EQ(exhibit.used(), pressed);
 }
 
-TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
+TEST(Exhibit, LightsOnlyLampsOfButtonsWithAnEffect) {
     const auto lamps = [](std::size_t artifacts, const std::vector<std::string>& tags) {
         return sample::exhibit(artifacts, tags).step(start, {}, tracked_state(start)).lamps;
     };
@@ -206,7 +206,7 @@ TEST(Exhibit, TheLampsAreThoseOfTheButtonsThatDoSomething) {
     EXPECT_EQ(lamps(0, {}), 0b000U);
 }
 
-TEST(Exhibit, WithoutItsPropTheArtifactStandsAtAPlaceOfItsOwn) {
+TEST(Exhibit, ShowsTheArtifactAtItsIdlePlaceWithoutTheProp) {
     Exhibit exhibit = sample::exhibit(2, languages);
     tracking::TrackedState known = tracked_state(start);
     known.table_from_prop.translation = {0.1, 0.05, 0.0};
@@ -220,7 +220,7 @@ TEST(Exhibit, WithoutItsPropTheArtifactStandsAtAPlaceOfItsOwn) {
     EXPECT_EQ(without.brightness, 1.0);
 }
 
-TEST(Exhibit, NothingAndNoCaptionsAreNoTrouble) {
+TEST(Exhibit, WorksWithoutArtifactsOrCaptions) {
     Exhibit none = sample::exhibit(0, {});
     EXPECT_EQ(none.step(start + rest, settings::button_commands, tracked_state(start)).brightness, 0.0);
     Exhibit silent = sample::exhibit(2, {});
@@ -251,7 +251,7 @@ TEST(Exhibit, AStepAllocatesNothing) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-TEST(Commands, EachButtonHasOne) {
+TEST(Commands, EachButtonHasACommand) {
     for (int button = 0; button < static_cast<int>(settings::button_commands.size()); ++button) {
         EXPECT_EQ(settings::button_of(*settings::command_of_button(button)), button);
     }

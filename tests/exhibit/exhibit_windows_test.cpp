@@ -60,7 +60,7 @@ protected:
     Exhibit exhibit{walked::walked_catalogue(), place(3), "en", sample::start};
 };
 
-TEST_F(WindowExhibit, TheSeventhButtonPinsWhatTheEyeSeesOfTheArtifactOnShow) {
+TEST_F(WindowExhibit, SeventhButtonPinsTheViewOfTheShownArtifact) {
     EXPECT_FALSE(lamp(run(seconds(1)))) << "nobody is there";
     visit();
     EXPECT_TRUE(lamp(run(milliseconds(20))));
@@ -77,7 +77,7 @@ TEST_F(WindowExhibit, TheSeventhButtonPinsWhatTheEyeSeesOfTheArtifactOnShow) {
     EXPECT_NE(std::find(wanted.begin(), wanted.end(), shown.windows.windows()[0].artifact), wanted.end());
 }
 
-TEST_F(WindowExhibit, AllWindowsGoAtRest) {
+TEST_F(WindowExhibit, RemovesAllWindowsAtRest) {
     visit();
     EXPECT_EQ(run(seconds(1), {Command::Window}).windows.windows().size(), 1U);
     const Presentation shown = run(seconds(400));
@@ -85,7 +85,7 @@ TEST_F(WindowExhibit, AllWindowsGoAtRest) {
     EXPECT_TRUE(shown.windows.windows().empty());
 }
 
-TEST_F(WindowExhibit, TheyFadeWithTheirSetAndAnotherSetBeginsWithoutAny) {
+TEST_F(WindowExhibit, WindowsFadeOutWithTheirSet) {
     visit();
     (void)run(seconds(1), {Command::Window});
     exhibit.await_set(true);
@@ -105,7 +105,7 @@ TEST_F(WindowExhibit, TheyFadeWithTheirSetAndAnotherSetBeginsWithoutAny) {
     EXPECT_TRUE(run(seconds(1)).windows.windows().empty());
 }
 
-TEST_F(WindowExhibit, WithoutWindowsTheButtonDoesNothing) {
+TEST_F(WindowExhibit, ButtonDoesNothingWhenWindowsAreDisabled) {
     exhibit = Exhibit{walked::walked_catalogue(), place(0), "en", now};
     visit();
     const Presentation shown = run(seconds(1), {Command::Window});
@@ -113,7 +113,7 @@ TEST_F(WindowExhibit, WithoutWindowsTheButtonDoesNothing) {
     EXPECT_FALSE(lamp(shown));
 }
 
-TEST_F(WindowExhibit, AVisitorIsToldOfTheButtonOnceUnlessItWasFound) {
+TEST_F(WindowExhibit, ExplainsTheButtonOnceUnlessItWasPressed) {
     for (const bool finds : {false, true}) {
         exhibit = Exhibit{Catalogue(2, CatalogueEntry{walked::languages, {3, {{0.14, 0.04}}}}), place(3),
                           "en", now};
@@ -132,7 +132,7 @@ TEST_F(WindowExhibit, AVisitorIsToldOfTheButtonOnceUnlessItWasFound) {
     }
 }
 
-TEST_F(WindowExhibit, AVisitorIsToldOnceWhatTheHeldButtonDoesUnlessItWasHeld) {
+TEST_F(WindowExhibit, ExplainsHoldingOnceUnlessTheButtonWasHeld) {
     for (const bool holds : {false, true}) {
         exhibit = Exhibit{Catalogue(2, CatalogueEntry{walked::languages, {3, {{0.14, 0.04}}}}), place(3),
                           "en", now};
@@ -153,7 +153,7 @@ TEST_F(WindowExhibit, AVisitorIsToldOnceWhatTheHeldButtonDoesUnlessItWasHeld) {
 }
 
 /// The staff's chord is the first and the last button of the panel, six or seven.
-TEST_F(WindowExhibit, TheChordUndoesThePressOfThePanelsLastButton) {
+TEST_F(WindowExhibit, ChordUndoesThePressOfTheLastButton) {
     for (const std::size_t buttons : {std::size_t{6}, std::size_t{7}}) {
         exhibit = Exhibit{walked::walked_catalogue(), place(3, buttons), "en", now};
         visit();
@@ -172,7 +172,7 @@ bool overlap(const TableRectangle& a, const TableRectangle& b) {
 }
 
 /// A hand slides, turns and lifts the prop and presses every button: no visible window overlaps anything else that is seen.
-TEST_F(WindowExhibit, NeverOverlapAnythingOnTheTableOverSeededWalks) {
+TEST_F(WindowExhibit, WindowsNeverOverlapAnythingOnTheTable) {
     const ExhibitPlace where = place(3);
     std::size_t most = 0;
     int pushed = 0, moved_on = 0;

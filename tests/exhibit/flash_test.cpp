@@ -81,7 +81,7 @@ void press(std::vector<settings::Command>& commands, std::mt19937& random) {
 }
 
 /// With the prop at rest there are at most two flashes a second; a prop that is lost and found adds one.
-TEST(Flashes, AreAtMostTwoASecondWhateverIsPressedAndThreeWhereThePropIsLostToo) {
+TEST(Flashes, AtMostTwoPerSecondOrThreeIfThePropIsLost) {
     int most = 0;
     for (unsigned seed = 0; seed < 30; ++seed) {
         std::mt19937 random(seed);
@@ -124,7 +124,7 @@ Exhibit narration_exhibit() {
 }
 
 /// The caption's text has its own fades, which a change of artifact or language may interrupt.
-TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
+TEST(Flashes, AtMostThreePerSecondDuringNarration) {
     int most = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
@@ -169,7 +169,7 @@ TEST(Flashes, AreAtMostThreeASecondWhereThereIsMuchToTell) {
 }
 
 /// The worst case: presses at any brightness on its way up.
-TEST(Flashes, AreAtMostTwoASecondForWhoeverPressesAtTheWorstBrightness) {
+TEST(Flashes, AtMostTwoPerSecondForPressesAtTheWorstBrightness) {
     for (const settings::Command command : settings::button_commands) {
         for (int percent = 1; percent <= 100; percent += 3) {
             Watched watched(3);

@@ -61,7 +61,7 @@ double light(const image::Image<std::uint8_t>& image) {
 
 } // namespace
 
-TEST(GlyphImage, a_letter_has_its_area_at_every_size) {
+TEST(GlyphImage, letter_area_is_right_at_every_size) {
     const pack::GlyphSetting setting = line_of({pack::em_units / 4}, pack::em_units);
     const pack::GlyphRuns runs = runs_with(setting);
     for (const double em_px : {7.0, 11.3, 20.0, 32.0, 60.0, 131.7}) {
@@ -71,7 +71,7 @@ TEST(GlyphImage, a_letter_has_its_area_at_every_size) {
     }
 }
 
-TEST(GlyphImage, a_letter_lies_where_its_pen_is) {
+TEST(GlyphImage, letter_is_drawn_at_its_pen) {
     const pack::GlyphSetting setting = line_of({pack::em_units / 4}, pack::em_units);
     const typography::GlyphImage image = typography::glyph_image(runs_with(setting), square(), setting, 64.0);
     ASSERT_EQ(image.coverage.width, 64);
@@ -88,7 +88,7 @@ TEST(GlyphImage, a_letter_lies_where_its_pen_is) {
     EXPECT_LT(image.coverage.at(32, 49), 10);
 }
 
-TEST(GlyphImage, letters_that_touch_join_without_a_seam) {
+TEST(GlyphImage, touching_letters_join_without_a_seam) {
     const pack::GlyphSetting setting = line_of({0, pack::em_units / 2 - 8}, pack::em_units);
     const typography::GlyphImage image = typography::glyph_image(runs_with(setting), square(), setting, 60.0);
     const int row = image.top_px + 30;
@@ -97,14 +97,14 @@ TEST(GlyphImage, letters_that_touch_join_without_a_seam) {
     }
 }
 
-TEST(GlyphImage, a_letter_that_reaches_over_the_edge_is_whole) {
+TEST(GlyphImage, letter_beyond_the_edge_is_not_clipped) {
     const pack::GlyphSetting setting = line_of({-pack::em_units / 4}, pack::em_units / 8);
     const typography::GlyphImage image = typography::glyph_image(runs_with(setting), square(), setting, 40.0);
     EXPECT_EQ(image.left_px, 10);
     EXPECT_NEAR(light(image.coverage), 400.0, 8.0);
 }
 
-TEST(GlyphImage, nothing_to_draw_is_a_dark_box_and_too_much_is_empty) {
+TEST(GlyphImage, blank_text_is_dark_and_oversized_text_is_empty) {
     const pack::GlyphSetting blank{pack::em_units, pack::em_units, pack::em_units, {{pack::em_units, 0}}, {}};
     const typography::GlyphImage image = typography::glyph_image(runs_with(blank), square(), blank, 10.0);
     EXPECT_EQ(image.coverage.width, 10);
@@ -114,7 +114,7 @@ TEST(GlyphImage, nothing_to_draw_is_a_dark_box_and_too_much_is_empty) {
         typography::glyph_image(runs_with(endless), square(), endless, 500.0).coverage.texels.empty());
 }
 
-TEST(GlyphCaption, the_title_is_over_the_text_and_both_are_flush_with_where_they_begin) {
+TEST(GlyphCaption, title_is_above_text_and_each_is_flush_with_its_direction) {
     const pack::GlyphSetting wide = line_of({0, pack::em_units}, 2 * pack::em_units);
     const pack::GlyphSetting narrow = line_of({0}, pack::em_units / 2);
     pack::GlyphRuns runs = runs_with(wide);
@@ -141,7 +141,7 @@ TEST(GlyphCaption, the_title_is_over_the_text_and_both_are_flush_with_where_they
     EXPECT_EQ(none.coverage.texels.size(), 1U);
 }
 
-TEST(GlyphCaption, small_lines_lie_below_the_text_close_together_and_have_at_least_24_points) {
+TEST(GlyphCaption, small_lines_follow_the_text_and_are_at_least_24_points) {
     pack::GlyphRuns runs = runs_with(line_of({0}, pack::em_units));
     const typography::GlyphPart text{typography::CaptionRole::Text, &runs.texts[0]};
     const typography::GlyphPart small{typography::CaptionRole::Small, &runs.texts[0]};

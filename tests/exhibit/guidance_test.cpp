@@ -96,7 +96,7 @@ TEST(Signs, LieInThePictureAndNeverOnTheProp) {
     EXPECT_GT(all, advised * 9 / 10); // there is no space if the prop fills the picture
 }
 
-TEST(Signs, AnArrowPointsTheWay) {
+TEST(Signs, ArrowPointsAlongTheMove) {
     const ExhibitPlace place = guided_place();
     guidance::Guidance guidance;
     guidance.stage = guidance::GuidanceStage::Picture;
@@ -119,7 +119,7 @@ TEST(Signs, AnArrowPointsTheWay) {
 }
 
 /// A turn's arrowhead is at the end that it turns to: counter-clockwise about the prop, seen from above.
-TEST(Signs, AnArcTurnsTheWay) {
+TEST(Signs, ArcPointsInTheDirectionOfTheTurn) {
     ExhibitPlace place = guided_place();
     place.picture_m = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
     for (const double turn : {0.5, -0.5}) {
@@ -147,7 +147,7 @@ TEST(Signs, AnArcTurnsTheWay) {
 }
 
 /// The picture of the table is 58 cm wide, and the shadow of a cube of 12 cm at most 20 cm: beside it there is space.
-TEST(Signs, AnArcHasAPlaceBesideALargeCubeInAnyTurn) {
+TEST(Signs, ArcFitsBesideALargeCubeAtAnyYaw) {
     settings::Settings settings = bench::cube_in_hand();
     settings.prop = settings::cube_settings(0.12);
     ExhibitPlace place;
@@ -229,14 +229,14 @@ TEST_F(GuidedExhibit, ShowsASignThenWordsThenSpeaks) {
     EXPECT_EQ(silences_, 1);
 }
 
-TEST_F(GuidedExhibit, IsQuietForNobody) {
+TEST_F(GuidedExhibit, ShowsNoSignWithoutAVisitor) {
     at(seconds(1), 0.0);
     EXPECT_TRUE(at(seconds(20), 0.3).sign);
     EXPECT_FALSE(at(seconds(1) + Presence::stays + seconds(1), 0.3).sign); // nothing has moved since
     EXPECT_TRUE(at(seconds(40), 0.31).sign);
 }
 
-TEST_F(GuidedExhibit, DoesNotSpeakIntoWhatIsSaid) {
+TEST_F(GuidedExhibit, DoesNotInterruptSpeech) {
     exhibit_.hear(true);
     at(seconds(1), 0.0);
     at(seconds(25), 0.3);
@@ -256,7 +256,7 @@ TEST_F(GuidedExhibit, GuidesWithoutAllocating) {
 }
 
 /// A tracker's noise at rest does not count as a visitor.
-TEST(PresenceTest, IsAMovementOrAPress) {
+TEST(PresenceTest, DetectsAMovementOrAPress) {
     Presence presence;
     bench::Seeded seeded(4);
     tracking::TrackedState tracked_state = sample::tracked_state(sample::start);

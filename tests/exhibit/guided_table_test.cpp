@@ -77,7 +77,7 @@ glm::dvec2 dark_picture(const Visit& visit) {
     return {};
 }
 
-TEST(GuidedTable, IsQuietWhileThePropIsOnAPictureAndGuidesAfterTheChoice) {
+TEST(GuidedTable, GuidesOnAPictureOnlyAfterTheChoice) {
     Visit visit(true);
     visit.signs_in(milliseconds(800));
     const glm::dvec2 goal = dark_picture(visit);
@@ -96,7 +96,7 @@ TEST(GuidedTable, IsQuietWhileThePropIsOnAPictureAndGuidesAfterTheChoice) {
 }
 
 /// Two and a half seconds to a picture and back, through places where a face is dark.
-TEST(GuidedTable, IsQuietOnTheWayToAPictureAndBack) {
+TEST(GuidedTable, DoesNotGuideOnTheWayToAPictureAndBack) {
     for (const bool pictures : {true, false}) {
         Visit visit(true);
         visit.signs_in(milliseconds(800));
@@ -110,7 +110,7 @@ TEST(GuidedTable, IsQuietOnTheWayToAPictureAndBack) {
     }
 }
 
-TEST(GuidedTable, GuidesWhoStopsOnTheWayAndWhoMovesThePropAboutInTheDark) {
+TEST(GuidedTable, GuidesAPropThatStopsOrWandersInTheDark) {
     Visit stops(true);
     stops.signs_in(milliseconds(800));
     const glm::dvec2 goal = dark_picture(stops);
@@ -176,7 +176,7 @@ TEST(GuidedTable, WordsLieBesideThePictures) {
     EXPECT_GT(seen, 30);
 }
 
-TEST(GuidedTable, TheZonesFrameDoesNotCrossPictures) {
+TEST(GuidedTable, HidesTheZoneFrameWhilePicturesAreShown) {
     for (const bool pictures : {true, false}) {
         Visit visit(pictures);
         visit.slide_to({0.30, -0.1});
@@ -185,7 +185,7 @@ TEST(GuidedTable, TheZonesFrameDoesNotCrossPictures) {
 }
 
 /// A corner of the prop's base lies in the dark, and no part of the artifact is seen through it.
-TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
+TEST(GuidedTable, DoesNotGuideWhileTheArtifactIsWhollyVisible) {
     constexpr glm::dvec2 at(0.20, 0.05);
     for (const bool known : {true, false}) {
         Visit visit(false, known ? settings::usual_artifact(settings::make_prop(settings::Settings().prop))
@@ -204,7 +204,7 @@ TEST(GuidedTable, IsQuietWhileTheArtifactIsSeenWhole) {
 }
 
 /// The frame is that of the shown artifact, if it has one.
-TEST(GuidedTable, TheFrameLiesAroundTheShownArtifactsZone) {
+TEST(GuidedTable, FrameUsesTheShownArtifactsZone) {
     Visit visit(false);
     CatalogueEntry own{{"en"}, {{{0.2, 0.05}}}, {}};
     own.zone = ZoneFrame({{0.0, 0.0}, {0.1, 0.05}}, 0.15, {0.8, 0.5});

@@ -196,7 +196,7 @@ TEST_P(HandGaps, NeverMakeTheShownPropJump) {
                 worst_gap_s);
 }
 
-TEST_P(HandGaps, DimToNothingAndComeBackWithoutAFlicker) {
+TEST_P(HandGaps, FadeOutAndInWithoutFlicker) {
     constexpr double out_s = 0.3 + 0.6; // HandFade
     std::uint64_t seed = 100;
     for (const double gap_s : gaps(58)) {
@@ -215,7 +215,7 @@ TEST_P(HandGaps, DimToNothingAndComeBackWithoutAFlicker) {
 INSTANTIATE_TEST_SUITE_P(Each, HandGaps,
                          ::testing::Values(Followed::ByTracker, Followed::ByTags, Followed::ByBoth));
 
-TEST(HandFade, IsAClosedFormOfAgeAtAnyRhythmOfFrames) {
+TEST(HandFade, IsIndependentOfTheFrameRate) {
     for (int ms = 0; ms < 2000; ms += 13) {
         HandFade often, rarely;
         double each = 1.0;

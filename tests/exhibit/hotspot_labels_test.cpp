@@ -191,7 +191,7 @@ glm::dvec3 entry_of(const geometry::PropShape& prop, glm::dvec3 outside, glm::dv
 
 /// At the picture's edge a face that is turned to the lens is lit in part: a label is shown only if the place through
 /// which its point is seen is in the picture.
-TEST(HotspotLabels, AreDarkWhereTheRayEntersThePropBesideThePicture) {
+TEST(HotspotLabels, HiddenWhereTheRayEntersOutsideThePicture) {
     const Blocks blocks;
     const HotspotSet set = hotspots_of(blocks);
     const geometry::PropShape prop = sample::place().prop;
@@ -241,7 +241,7 @@ TEST(HotspotLabels, AreDarkWhereTheRayEntersThePropBesideThePicture) {
 }
 
 /// The label goes dark without a fade, in the very step in which the point turns away.
-TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
+TEST(HotspotLabels, HiddenAsSoonAsThePointTurnsAway) {
     const Blocks blocks;
     Shower shower{make_exhibit(hotspots_of(blocks))};
     shower.point_out(2); // on -Y
@@ -269,7 +269,7 @@ TEST(HotspotLabels, AreDarkAsSoonAsThePointIsTurnedAway) {
 
 /// Over a triangle's plane the lens is low, and its distance decides: that to the mean of the corners, also where the
 /// middle of an edge is farther away or nearer.
-TEST(HotspotLabels, AFaceOfThreeCornersIsLitAsSeenFromItsMiddle) {
+TEST(HotspotLabels, TriangularFaceIsLitAsSeenFromItsCentroid) {
     const geometry::PropShape prop = solid::example_prop("tetrahedron");
     for (std::size_t k = 0; k < prop.faces.size(); ++k) {
         const geometry::PropFace& face = prop.faces[k];
@@ -290,7 +290,7 @@ TEST(HotspotLabels, AFaceOfThreeCornersIsLitAsSeenFromItsMiddle) {
     }
 }
 
-TEST(HotspotLabels, FollowTheLanguageAndGoWhenTheyAreNotWanted) {
+TEST(HotspotLabels, FollowTheLanguageAndHideWhenNotTold) {
     const Blocks blocks;
     Shower shower{make_exhibit(hotspots_of(blocks))};
     shower.point_out(2);

@@ -78,7 +78,7 @@ struct ZoneCase {
 class Zones : public testing::TestWithParam<ZoneCase> {};
 
 /// Times before, at, within and after the hour that is skipped or repeated, and over midnight.
-TEST_P(Zones, OpenOnceForEachSpanAsPythonHasIt) {
+TEST_P(Zones, OpeningsMatchPythonsZoneinfo) {
     const auto [zone, year, years] = GetParam();
     if (!use_time_zone(zone)) {
         GTEST_SKIP() << "this machine has no " << zone;
@@ -124,19 +124,19 @@ TEST(Timetable, IsOpenFromOpeningToClosing) {
     EXPECT_EQ(table.at(utc(2026, 11, 23, 18)), (Opening{false, utc(2026, 11, 24, 10)}));
 }
 
-TEST(Timetable, WithoutHoursIsAlwaysOpen) {
+TEST(Timetable, IsAlwaysOpenWithoutHours) {
     const Timetable table(settings::HoursSettings(), no_offset);
     EXPECT_TRUE(table.always_open());
     EXPECT_EQ(table.at(utc(2026, 1, 1, 0)), (Opening{true, std::nullopt}));
 }
 
-TEST(Timetable, WithoutAnyDayIsNeverOpen) {
+TEST(Timetable, IsNeverOpenWithoutAnyDay) {
     settings::HoursSettings settings;
     settings.weekdays.fill({});
     EXPECT_EQ(Timetable(settings, no_offset).at(utc(2026, 1, 1, 0)), (Opening{false, std::nullopt}));
 }
 
-TEST(Timetable, JoinsWhatTouches) {
+TEST(Timetable, JoinsAdjacentAndOverlappingSpans) {
     settings::HoursSettings settings = every_day("00:00-24:00");
     settings.weekdays[6].clear(); // 2026-11-29 is a Sunday
     EXPECT_EQ(Timetable(settings, no_offset).at(utc(2026, 11, 23, 12)),
@@ -147,7 +147,7 @@ TEST(Timetable, JoinsWhatTouches) {
     EXPECT_EQ(unsorted.at(utc(2026, 11, 23, 9)), (Opening{true, utc(2026, 11, 23, 15)}));
 }
 
-TEST(Timetable, ExceptionsStandInTheWeekdaysPlace) {
+TEST(Timetable, ExceptionsReplaceTheWeekday) {
     settings::HoursSettings settings = every_day("20:00-02:00");
     settings.exceptions = {*settings::parse_hours_exception("2026-12-24 10:00-14:00"),
                            *settings::parse_hours_exception("2026-12-24 16:00-17:00"),
@@ -159,7 +159,7 @@ TEST(Timetable, ExceptionsStandInTheWeekdaysPlace) {
     EXPECT_EQ(table.at(utc(2026, 12, 24, 17)), (Opening{false, utc(2026, 12, 26, 20)}));
 }
 
-TEST(WallClock, TellsALeapFromAClockThatRuns) {
+TEST(WallClock, DetectsClockJumps) {
     WallClock clock;
     const auto at = [](int s) { return MonotonicTime(seconds(s)); };
     EXPECT_EQ(clock.look(at(100), utc(2026, 5, 1, 12)), seconds(0));
@@ -194,7 +194,7 @@ struct Sleeper {
     }
 };
 
-TEST(Sleep, FallsAsleepByAFadeWhenItIsClosedAndNobodyIsThere) {
+TEST(Sleep, FadesOutWhenClosedAndUnused) {
     Sleeper exhibit;
     exhibit.run(hours(1));
     EXPECT_EQ(exhibit.sleep.light(), 1.0);
@@ -240,7 +240,7 @@ TEST(Sleep, WaitsFifteenMinutesAtMost) {
     EXPECT_TRUE(exhibit.sleep.asleep()) << "a button wakes it, not the prop";
 }
 
-TEST(Sleep, AButtonWakesItForTenMinutesFromTheLatestPress) {
+TEST(Sleep, ButtonWakesItForTenMinutesAfterTheLastPress) {
     Sleeper exhibit;
     exhibit.input.open = false;
     exhibit.run(minutes(1));
@@ -256,7 +256,7 @@ TEST(Sleep, AButtonWakesItForTenMinutesFromTheLatestPress) {
     EXPECT_TRUE(exhibit.sleep.asleep());
 }
 
-TEST(Sleep, APressWhileTheLightFallsBringsItBack) {
+TEST(Sleep, PressDuringTheFadeRestoresTheLight) {
     Sleeper exhibit;
     exhibit.input.open = false;
     exhibit.run(seconds(2));
@@ -267,7 +267,7 @@ TEST(Sleep, APressWhileTheLightFallsBringsItBack) {
     EXPECT_EQ(exhibit.sleep.light(), 1.0);
 }
 
-TEST(Sleep, BeginsAwakeUntilItMaySleep) {
+TEST(Sleep, StaysAwakeUntilSleepIsAllowed) {
     Sleeper exhibit;
     exhibit.input.open = false;
     exhibit.input.may_sleep = false;

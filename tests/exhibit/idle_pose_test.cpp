@@ -34,7 +34,7 @@ struct Visit {
     }
 };
 
-TEST(IdlePose, HoldsAShortDropoutWithoutAnybodyNoticing) {
+TEST(IdlePose, HoldsThePoseDuringAShortDropout) {
     Visit visit{start + seconds(1), start + seconds(3) - milliseconds(1)};
     for (MonotonicTime now = start; now < start + seconds(10); now += milliseconds(16)) {
         const DrawnPose drawn = visit.at(now);
@@ -45,7 +45,7 @@ TEST(IdlePose, HoldsAShortDropoutWithoutAnybodyNoticing) {
     }
 }
 
-TEST(IdlePose, FadesCalmlyToThePictureThatTurnsAndMovesOnlyInTheDark) {
+TEST(IdlePose, FadesToTheTurningPictureAndMovesOnlyInTheDark) {
     Visit visit{start + seconds(1)};
     double before = 1.0;
     bool attracted = false;
@@ -78,7 +78,7 @@ TEST(IdlePose, TurnsOnceInFortySecondsAtItsPlace) {
     }
 }
 
-TEST(IdlePose, AReturnAtAnyMomentOfTheFadeNeverJumps) {
+TEST(IdlePose, NeverJumpsWhenThePropReturnsDuringTheFade) {
     for (int ms = 1000; ms < 5000; ms += 13) {
         Visit visit{start + seconds(1), start + seconds(1) + milliseconds(ms)};
         double before = 1.0;
@@ -95,7 +95,7 @@ TEST(IdlePose, AReturnAtAnyMomentOfTheFadeNeverJumps) {
     }
 }
 
-TEST(IdlePose, LooksTheSameAtAnyRhythmOfFrames) {
+TEST(IdlePose, IsIndependentOfTheFrameRate) {
     const auto stand_at = [](MonotonicTime end, Nanoseconds step) {
         Visit visit{start + seconds(1)};
         for (MonotonicTime now = start; now < end; now += step) {
@@ -112,7 +112,7 @@ TEST(IdlePose, LooksTheSameAtAnyRhythmOfFrames) {
     }
 }
 
-TEST(IdlePose, WithoutAnyPoseYetItTurnsAtOnceAndGivesWayToTheFirst) {
+TEST(IdlePose, TurnsAtOnceUntilTheFirstPose) {
     IdlePose idle_pose(place_m, false, start);
     const DrawnPose first = idle_pose.at(start, false, Nanoseconds(0), {});
     EXPECT_TRUE(first.attracts);
@@ -211,7 +211,7 @@ Counted count_hidden(const geometry::PropShape& prop, const typography::TablePol
     return counted;
 }
 
-TEST(IdlePose, TheAreaThatItHidesIsThatOfAllTurns) {
+TEST(IdlePose, HiddenAreaCoversAllTurns) {
     const glm::dvec3 lens_m(0.1, 0.2, 1.9);
     const glm::dvec3 eye_m(-0.2, -0.55, 0.5);
     for (const IdleProp& prop : idle_props()) {
@@ -243,7 +243,7 @@ TEST(IdlePose, TheAreaThatItHidesIsThatOfAllTurns) {
     }
 }
 
-TEST(IdlePose, TheAreaThatItHidesStaysAsItTurns) {
+TEST(IdlePose, HiddenAreaIsTheSameAtEveryYaw) {
     const glm::dvec3 eye_m(-0.2, -0.55, 0.5);
     for (const IdleProp& prop : idle_props()) {
         const auto first = area_hidden_by(prop.shape, turned_by(0.0), eye_m);
@@ -256,7 +256,7 @@ TEST(IdlePose, TheAreaThatItHidesStaysAsItTurns) {
 }
 
 /// The places of captions beside an idle frustum or cube have been chosen with this area.
-TEST(IdlePose, AFrustumAndACubeHideAnOctagonAndTheirTop) {
+TEST(IdlePose, HiddenAreaOfFrustumAndCubeIsTheHullOfTwoTurns) {
     for (const IdleProp& prop : idle_props()) {
         if (!prop.square) {
             continue;

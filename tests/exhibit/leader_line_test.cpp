@@ -140,7 +140,7 @@ Agreement compare(const Mesh& truth, const Mesh& drawn, double tolerance_m, int 
     return agreement;
 }
 
-TEST(Hotspots, AreSeenExactlyWhereARayCastReachesThem) {
+TEST(Hotspots, VisibilityMatchesARayCast) {
     const Mesh mesh = cup(60, 72);
     const Agreement agreement = compare(mesh, mesh, 1e-5, 3000);
     EXPECT_GT(agreement.seen, 400);
@@ -150,7 +150,7 @@ TEST(Hotspots, AreSeenExactlyWhereARayCastReachesThem) {
     EXPECT_EQ(agreement.wrong_beyond_tolerance, 0);
 }
 
-TEST(Hotspots, ACoarserLevelDecidesTheSameButWithinItsError) {
+TEST(Hotspots, CoarserMeshAgreesWithinItsError) {
     const Mesh fine = cup(80, 96);
     const Mesh coarse = cup(40, 32);
     // The coarser outline's spokes cut off up to r (1 - cos(pi / 32)) = 0.2 mm; its rings about as much.
@@ -162,7 +162,7 @@ TEST(Hotspots, ACoarserLevelDecidesTheSameButWithinItsError) {
     EXPECT_EQ(agreement.wrong_beyond_tolerance, 0);
 }
 
-TEST(Hotspots, AreHiddenWhereTheFaceThatShowsThemIsNotLit) {
+TEST(Hotspots, HiddenBehindAnUnlitFace) {
     const geometry::PropShape prop = geometry::make_frustum(geometry::shipped_frustum);
     const Occluder nothing;
     Random random(32);
@@ -246,7 +246,7 @@ bool hides(const Scene& scene, const glm::dvec3& from_m, const glm::dvec2& at) {
     return geometry::enter(scene.prop, from, prop_from_table.point({at, 0.0}) - from, hit) && hit.t < 1.0;
 }
 
-TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
+TEST(LeaderLine, LeavesThePropInLineWithThePointAndAvoidsPictures) {
     Random random(33);
     int lines = 0;
     int bent = 0;
@@ -299,7 +299,7 @@ TEST(LeaderLine, ComesOutOfThePropFromThePointAndCrossesNoPicture) {
     EXPECT_GT(bent, 0);
 }
 
-TEST(LeaderLine, FollowsSoftlyAsThePropTurns) {
+TEST(LeaderLine, MovesSmoothlyAsThePropTurns) {
     Random random(34);
     constexpr double step_rad = 0.25 * std::numbers::pi / 180.0;
     int steps = 0;
@@ -337,7 +337,7 @@ TEST(LeaderLine, FollowsSoftlyAsThePropTurns) {
     EXPECT_LT(fast, steps / 1000);
 }
 
-TEST(LeaderLine, WithoutAWayThereIsNone) {
+TEST(LeaderLine, IsAbsentWithoutAFreePath) {
     Random random(35);
     Scene scene = some_scene(random, {});
     LeaderLineNeeds needs = scene.needs;

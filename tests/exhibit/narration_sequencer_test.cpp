@@ -20,7 +20,7 @@ const Tellable description_alone{{seconds(4)}, {}};
 
 /// Steps in frames of 20 ms, with a voice that speaks the description: two seconds a portion, with a pause after
 /// each.
-class Telling_ : public ::testing::Test {
+class NarrationSequencerTest : public ::testing::Test {
 protected:
     static constexpr Nanoseconds frame = milliseconds(20);
 
@@ -98,7 +98,7 @@ protected:
     bool was_spoken = false;
 };
 
-TEST_F(Telling_, PressesLeadThroughAllOfItAndOutAgain) {
+TEST_F(NarrationSequencerTest, PressesStepThroughDescriptionAndHotspots) {
     for (int round = 0; round < 3; ++round) {
         EXPECT_TRUE(press().speaks);
         EXPECT_EQ(told.portion, 0U);
@@ -124,7 +124,7 @@ TEST_F(Telling_, PressesLeadThroughAllOfItAndOutAgain) {
     EXPECT_TRUE(nothing());
 }
 
-TEST_F(Telling_, RestLeadsThroughAllOfItOnce) {
+TEST_F(NarrationSequencerTest, RestStepsThroughEverythingOnce) {
     rest(NarrationSequencer::first_rest - milliseconds(100));
     EXPECT_TRUE(nothing());
     rest(milliseconds(200));
@@ -149,7 +149,7 @@ TEST_F(Telling_, RestLeadsThroughAllOfItOnce) {
     EXPECT_EQ(told.portion, 0U);
 }
 
-TEST_F(Telling_, TheAttributionIsReadAfterWhatWasHeardAndAloneWhereNothingElseIsToldInWords) {
+TEST_F(NarrationSequencerTest, ShowsTheUnspokenAttributionAfterTheSpeechOrAlone) {
     const Tellable attributed{{seconds(4), seconds(4), seconds(2)}, {}, true}; // two portions are spoken
     tellable = &attributed;
     press();
@@ -177,7 +177,7 @@ TEST_F(Telling_, TheAttributionIsReadAfterWhatWasHeardAndAloneWhereNothingElseIs
     EXPECT_TRUE(nothing());
 }
 
-TEST_F(Telling_, WhatIsSilentIsReadAtItsPace) {
+TEST_F(NarrationSequencerTest, SilentTextAdvancesAtReadingPace) {
     voice = false;
     press();
     rest(milliseconds(100));
@@ -190,7 +190,7 @@ TEST_F(Telling_, WhatIsSilentIsReadAtItsPace) {
     EXPECT_EQ(told.portion, 2U);
 }
 
-TEST_F(Telling_, SpeechThatDoesNotComeIsReadAndNotHeardLate) {
+TEST_F(NarrationSequencerTest, LateSpeechIsReplacedByReading) {
     delay = seconds(30);
     press();
     rest(milliseconds(900));
@@ -202,7 +202,7 @@ TEST_F(Telling_, SpeechThatDoesNotComeIsReadAndNotHeardLate) {
     EXPECT_EQ(told.portion, 1U);
 }
 
-TEST_F(Telling_, AdviceWaitsForThePauseAndTheDescriptionIsToldAgain) {
+TEST_F(NarrationSequencerTest, AdviceWaitsForAPauseAndTheDescriptionRestarts) {
     press();
     rest(milliseconds(1000));
     NarrationInput advice;
@@ -227,7 +227,7 @@ TEST_F(Telling_, AdviceWaitsForThePauseAndTheDescriptionIsToldAgain) {
     EXPECT_EQ(told.hotspot, 0U) << "more than half of it was heard";
 }
 
-TEST_F(Telling_, ASpeechWithoutPausesIsCutOff) {
+TEST_F(NarrationSequencerTest, CutsOffSpeechWithoutPauses) {
     has_pauses = false;
     press();
     rest(milliseconds(500));
@@ -239,7 +239,7 @@ TEST_F(Telling_, ASpeechWithoutPausesIsCutOff) {
     EXPECT_TRUE(nothing());
 }
 
-TEST_F(Telling_, AnotherArtifactAnotherLanguageAndTheStaffEndItAtOnce) {
+TEST_F(NarrationSequencerTest, EndsOnAnotherArtifactLanguageOrStaffMode) {
     for (int way = 0; way < 3; ++way) {
         ask();
         EXPECT_TRUE(told.speaks);
@@ -254,7 +254,7 @@ TEST_F(Telling_, AnotherArtifactAnotherLanguageAndTheStaffEndItAtOnce) {
     }
 }
 
-TEST_F(Telling_, APressDuringAFadeWaitsForItsEnd) {
+TEST_F(NarrationSequencerTest, PressDuringAFadeWaitsForItsEnd) {
     NarrationInput fading;
     fading.shown = false;
     fading.next = true;
@@ -263,11 +263,11 @@ TEST_F(Telling_, APressDuringAFadeWaitsForItsEnd) {
     fading.next = false;
     rest(milliseconds(500), fading);
     EXPECT_TRUE(nothing());
-    rest(Telling_::frame);
+    rest(NarrationSequencerTest::frame);
     EXPECT_EQ(told.portion, 0U);
 }
 
-TEST_F(Telling_, HelpBeginsTheDescriptionAndDoesNotBeginItTwice) {
+TEST_F(NarrationSequencerTest, HelpStartsTheDescriptionOnlyOnce) {
     press();
     press();
     EXPECT_EQ(told.hotspot, 0U);
@@ -280,7 +280,7 @@ TEST_F(Telling_, HelpBeginsTheDescriptionAndDoesNotBeginItTwice) {
 }
 
 /// The state of earlier speech does not affect the one that begins.
-TEST(NarrationSequencer, WhatIsToldAgainBeginsAtItsBeginning) {
+TEST(NarrationSequencer, RestartsFromTheFirstPortion) {
     for (const SpeechProgress& before : {SpeechProgress{State::Over, 0}, {State::Heard, 2}}) {
         NarrationSequencer narration_sequencer;
         MonotonicTime now{seconds(100)};
@@ -302,7 +302,7 @@ TEST(NarrationSequencer, WhatIsToldAgainBeginsAtItsBeginning) {
     }
 }
 
-TEST_F(Telling_, ALongDescriptionIsReadToItsEnd) {
+TEST_F(NarrationSequencerTest, ReadsALongDescriptionToItsEnd) {
     const Tellable longest{std::vector<Nanoseconds>(32, seconds(11)), {}};
     tellable = &longest;
     voice = false;
@@ -313,7 +313,7 @@ TEST_F(Telling_, ALongDescriptionIsReadToItsEnd) {
     EXPECT_TRUE(nothing());
 }
 
-TEST_F(Telling_, NoHotspotIsPointedOutWhereTheArtifactIsNotInTheProp) {
+TEST_F(NarrationSequencerTest, SkipsHotspotsWhileTheArtifactIsNotInTheProp) {
     NarrationInput input;
     input.in_prop = false;
     input.next = true;
@@ -327,7 +327,7 @@ TEST_F(Telling_, NoHotspotIsPointedOutWhereTheArtifactIsNotInTheProp) {
     EXPECT_TRUE(nothing());
 }
 
-TEST_F(Telling_, AnEmptyRoomIsToldNothingAndSomebodyElseAll) {
+TEST_F(NarrationSequencerTest, StaysSilentWithoutAVisitorAndRestartsForTheNext) {
     NarrationInput nobody;
     nobody.there = false;
     rest(seconds(60), nobody);
@@ -340,7 +340,7 @@ TEST_F(Telling_, AnEmptyRoomIsToldNothingAndSomebodyElseAll) {
     EXPECT_EQ(told.portion, 0U);
 }
 
-TEST_F(Telling_, WhoPlaysOnIsNotLedOnAndTheLabelGoesByItself) {
+TEST_F(NarrationSequencerTest, HotspotTimesOutDuringPlay) {
     press();
     press();
     for (Nanoseconds at{0}; at < NarrationSequencer::longest_hotspot - milliseconds(100); at += frame) {
@@ -355,7 +355,7 @@ TEST_F(Telling_, WhoPlaysOnIsNotLedOnAndTheLabelGoesByItself) {
 }
 
 /// For any behaviour of visitors: one thing at a time, no voice without its caption, portions in order, and an end.
-TEST_F(Telling_, HoldsItsPromisesForVisitorsWhoDoAnything) {
+TEST_F(NarrationSequencerTest, InvariantsHoldForRandomVisitors) {
     std::mt19937 random(5);
     const std::array tellables{&both, &hotspots_alone, &description_alone};
     const auto one_in = [&](unsigned n) { return random() % n == 0; };
@@ -398,7 +398,7 @@ TEST_F(Telling_, HoldsItsPromisesForVisitorsWhoDoAnything) {
     EXPECT_GT(hotspots, 100);
 }
 
-TEST_F(Telling_, AllocatesNothing) {
+TEST_F(NarrationSequencerTest, AllocatesNothing) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "a sanitizer allocates by itself";
     }

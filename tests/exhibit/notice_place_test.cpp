@@ -57,7 +57,7 @@ double light_between(const image::Image<std::uint8_t>& image, double first, doub
 
 } // namespace
 
-TEST(NoticeImage, every_shape_has_all_letters) {
+TEST(NoticeImage, every_shape_contains_all_letters) {
     for (const pack::TextDirection direction :
          {pack::TextDirection::LeftToRight, pack::TextDirection::RightToLeft}) {
         const NoticePicture picture = draw(copying, direction);
@@ -76,7 +76,7 @@ TEST(NoticeImage, every_shape_has_all_letters) {
     }
 }
 
-TEST(NoticeImage, the_ring_has_a_place_without_letters) {
+TEST(NoticeImage, ring_area_contains_no_letters) {
     constexpr double reach_m = notice_ring_radius_m + typography::ring_gap_m + typography::ring_width_m;
     for (const pack::TextDirection direction :
          {pack::TextDirection::LeftToRight, pack::TextDirection::RightToLeft}) {
@@ -99,7 +99,7 @@ TEST(NoticeImage, the_ring_has_a_place_without_letters) {
     }
 }
 
-TEST(NoticeImage, titles_stand_where_the_reader_begins) {
+TEST(NoticeImage, titles_are_on_the_side_where_reading_starts) {
     NoticeText lines = told;
     lines.lines = {{"IIIII", "", "stick.taken"}};
     lines.sentences.clear();
@@ -112,7 +112,7 @@ TEST(NoticeImage, titles_stand_where_the_reader_begins) {
     EXPECT_NEAR(light_between(to_left, 0.0, 0.5), word, 0.1 * word);
 }
 
-TEST(NoticeImage, a_title_that_cannot_be_set_gives_way_to_the_files_name) {
+TEST(NoticeImage, unsupported_title_falls_back_to_the_file_name) {
     const auto width = [](const NoticeLine& line) {
         return draw({{}, {line}, false}).shapes[0].image.coverage.texels;
     };
@@ -123,7 +123,7 @@ TEST(NoticeImage, a_title_that_cannot_be_set_gives_way_to_the_files_name) {
     EXPECT_EQ(width({"壺", "壺.fspack", "stick.taken"}), width({"–", "", "stick.taken"}));
 }
 
-TEST(NoticeImage, a_long_name_is_cut_off) {
+TEST(NoticeImage, long_names_are_truncated) {
     NoticeText text = told;
     text.lines[0].label = std::string(900, 'W');
     const NoticePicture picture = draw(text);
@@ -177,7 +177,7 @@ bool touch(const typography::TableRectangle& a, const typography::TableRectangle
 
 } // namespace
 
-TEST(NoticePlace, it_lies_beside_the_caption_and_in_its_place_where_there_is_no_other) {
+TEST(NoticePlace, lies_beside_the_caption_or_replaces_it_without_room) {
     const SharedNotice small = notice_of({{0.2, 0.05}});
     Table table;
     table.caption = typography::TableRectangle{{0.0, -0.2}, {0.3, 0.06}, 0};
@@ -207,7 +207,7 @@ TEST(NoticePlace, it_lies_beside_the_caption_and_in_its_place_where_there_is_no_
     }
 }
 
-TEST(NoticePlace, it_finds_the_captions_place_at_every_projectors_rate) {
+TEST(NoticePlace, finds_the_captions_place_at_every_frame_rate) {
     for (const int hz : {24, 25, 30, 50, 60, 75, 85, 100, 120, 144}) {
         Table full;
         full.frame = Nanoseconds(1'000'000'000 / hz);
@@ -225,7 +225,7 @@ TEST(NoticePlace, it_finds_the_captions_place_at_every_projectors_rate) {
     }
 }
 
-TEST(NoticePlace, empty_places_are_kept_free_where_there_is_other_room) {
+TEST(NoticePlace, avoids_kept_places_while_there_is_other_room) {
     const SharedNotice tall = notice_of({{0.12, 0.3}});
     Table table;
     table.kept = {{{-0.3, 0.0}, {0.1, 0.1}, 0}};
@@ -240,7 +240,7 @@ TEST(NoticePlace, empty_places_are_kept_free_where_there_is_other_room) {
     EXPECT_FALSE(touch(left->rectangle, *table.caption));
 }
 
-TEST(NoticePlace, it_gives_way_to_what_comes) {
+TEST(NoticePlace, moves_away_from_new_obstacles) {
     const SharedNotice notice = notice_of({{0.2, 0.05}});
     Table table;
     const typography::TableRectangle before = table.wait(milliseconds(600), notice)->rectangle;
@@ -255,7 +255,7 @@ TEST(NoticePlace, it_gives_way_to_what_comes) {
 }
 
 /// The only space is where the prop passes, every 0.6 s.
-TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
+TEST(NoticePlace, does_not_flicker_while_the_prop_slides_about) {
     const SharedNotice small = notice_of({{0.2, 0.05}});
     Table table;
     table.obstacles = {
@@ -285,7 +285,7 @@ TEST(NoticePlace, a_prop_that_is_slid_about_does_not_make_it_come_and_go) {
     }
 }
 
-TEST(NoticePlace, one_notice_goes_before_the_next_comes) {
+TEST(NoticePlace, fades_one_notice_out_before_the_next) {
     const SharedNotice first = notice_of({{0.2, 0.05}});
     const SharedNotice second = notice_of({{0.1, 0.1}});
     Table table;
@@ -307,7 +307,7 @@ TEST(NoticePlace, one_notice_goes_before_the_next_comes) {
     EXPECT_FALSE(table.wait(milliseconds(400), nullptr));
 }
 
-TEST(NoticePlace, the_ring_lies_in_the_picture_for_every_reader) {
+TEST(NoticePlace, ring_lies_in_the_picture_for_every_reader) {
     const NoticePicture drawn = draw(copying);
     const SharedNotice notice = std::make_shared<const NoticePicture>(drawn);
     for (int side = 0; side < 4; ++side) {
@@ -328,7 +328,7 @@ TEST(NoticePlace, the_ring_lies_in_the_picture_for_every_reader) {
 }
 
 /// The prop slides and turns anywhere and things come and go: a lit notice never overlaps any of them.
-TEST(NoticePlace, whatever_happens_it_lies_on_nothing_and_nothing_is_allocated) {
+TEST(NoticePlace, never_overlaps_anything_and_never_allocates) {
     const std::array<SharedNotice, 3> notices{notice_of({{0.3, 0.1}, {0.15, 0.2}, {0.08, 0.1}}),
                                               notice_of({{0.25, 0.04}, {0.1, 0.08}}), nullptr};
     int lit = 0;

@@ -20,7 +20,7 @@ ObjectDwell::Input before(const std::optional<RoomObject>& object, const glm::dv
     return {.object = object, .prop_m = prop_m, .in_prop = 0, .choose = false, .other_press = false};
 }
 
-TEST(ObjectDwell, TheObjectIsChosenAfterOneAndAHalfSecondsAtAnyRhythm) {
+TEST(ObjectDwell, ChoosesAfter1500MsAtAnyFrameRate) {
     std::mt19937_64 random(8);
     for (const std::int64_t longest_us : {1'000, 17'000, 400'000}) {
         ObjectDwell dwell;
@@ -44,7 +44,7 @@ TEST(ObjectDwell, TheObjectIsChosenAfterOneAndAHalfSecondsAtAnyRhythm) {
     }
 }
 
-TEST(ObjectDwell, AHandThatMovesOnOrSweepsChoosesNothing) {
+TEST(ObjectDwell, MovingOrSweepingHandChoosesNothing) {
     ObjectDwell dwell;
     for (int k = 0; k < 1000; ++k) { // at 4 cm/s, longer before the object than a rest takes
         EXPECT_FALSE(dwell.step(sample::start + milliseconds(10 * k), before(vase, {0.0004 * k, 0.0, 0.0})));
@@ -57,7 +57,7 @@ TEST(ObjectDwell, AHandThatMovesOnOrSweepsChoosesNothing) {
     }
 }
 
-TEST(ObjectDwell, AfterAChoiceThePropMustLeaveTheObjectFirst) {
+TEST(ObjectDwell, PropMustLeaveBeforeChoosingAgain) {
     ObjectDwell dwell;
     MonotonicTime now = sample::start;
     int chosen = 0;
@@ -77,14 +77,14 @@ TEST(ObjectDwell, AfterAChoiceThePropMustLeaveTheObjectFirst) {
     EXPECT_EQ(chosen, 3);
 }
 
-TEST(ObjectDwell, AGapOfHalfASecondBeginsAnew) {
+TEST(ObjectDwell, LongGapRestartsTheDwell) {
     ObjectDwell dwell;
     EXPECT_FALSE(dwell.step(sample::start, before(vase)));
     EXPECT_FALSE(dwell.step(sample::start + milliseconds(400), before(vase)));
     EXPECT_FALSE(dwell.step(sample::start + milliseconds(3000), before(vase)));
 }
 
-TEST(ObjectDwell, TheArtifactInThePropIsNotChosenAgain) {
+TEST(ObjectDwell, IgnoresTheArtifactAlreadyInTheProp) {
     ObjectDwell dwell;
     for (int k = 0; k < 300; ++k) {
         EXPECT_FALSE(dwell.step(sample::start + milliseconds(10 * k), before(RoomObject{4, 0})));
@@ -92,7 +92,7 @@ TEST(ObjectDwell, TheArtifactInThePropIsNotChosenAgain) {
     }
 }
 
-TEST(ObjectDwell, TheButtonChoosesAtOnceAndAnotherOneEndsTheRest) {
+TEST(ObjectDwell, ButtonChoosesAtOnceAndOtherPressesCancel) {
     ObjectDwell dwell;
     ObjectDwell::Input input = before(vase);
     EXPECT_FALSE(dwell.step(sample::start, input));
@@ -129,7 +129,7 @@ protected:
     double shift_m = 0.0;
 };
 
-TEST_F(ExhibitWithRoom, ARestBeforeAnObjectChoosesItsArtifact) {
+TEST_F(ExhibitWithRoom, DwellBeforeAnObjectChoosesItsArtifact) {
     touch();
     ASSERT_EQ(exhibit.chosen(), 0U);
     for (int k = 0; k < 74; ++k) {
@@ -152,7 +152,7 @@ TEST_F(ExhibitWithRoom, ARestBeforeAnObjectChoosesItsArtifact) {
     EXPECT_EQ(step(vase).artifact_light, 1.0);
 }
 
-TEST_F(ExhibitWithRoom, WithoutAVisitorNothingIsChosen) {
+TEST_F(ExhibitWithRoom, ChoosesNothingWithoutAVisitor) {
     for (int k = 0; k < 200; ++k) {
         static_cast<void>(step(vase)); // the prop stands there, untouched
     }

@@ -13,7 +13,7 @@ typography::PatternScene shipped() {
             geometry::make_frustum({})};
 }
 
-TEST(Pattern, TheOutermostPixelsAreWhiteAndTheNextOnesMostlyBlack) {
+TEST(Pattern, OutermostPixelsAreWhiteAndInnerOnesDark) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     const image::Image8 picture = typography::table_pattern(shipped(), *typesetter);
@@ -26,7 +26,7 @@ TEST(Pattern, TheOutermostPixelsAreWhiteAndTheNextOnesMostlyBlack) {
     EXPECT_LT(picture.at(picture.width - 5, 137).r, 20);
 }
 
-TEST(Pattern, EdgesOfThePropAreWhereThePinholeSeesThem) {
+TEST(Pattern, PropEdgesMatchThePinholeProjection) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     const typography::PatternScene scene = shipped();
@@ -40,7 +40,7 @@ TEST(Pattern, EdgesOfThePropAreWhereThePinholeSeesThem) {
     EXPECT_EQ(picture.at(static_cast<int>(corner.x) + 12, static_cast<int>(corner.y) + 12).g, 0);
 }
 
-TEST(Canvas, APictureScaledDownKeepsItsMeanLight) {
+TEST(Canvas, ScaledDownPictureKeepsItsMeanLight) {
     image::Image8 checks(64, 64, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
@@ -52,7 +52,7 @@ TEST(Canvas, APictureScaledDownKeepsItsMeanLight) {
     EXPECT_NEAR(canvas.image().at(4, 4).r, 188, 1); // half the light is code 188
 }
 
-TEST(Canvas, AFillCoversPartsOfPixelsByTheirShare) {
+TEST(Canvas, FillCoversPartialPixelsByTheirShare) {
     typography::Canvas canvas(4, 4, typography::Colour(0));
     canvas.fill({0.5, 0.0}, {2.0, 4.0}, typography::Colour(255));
     EXPECT_NEAR(canvas.image().at(0, 1).r, 188, 1);
@@ -60,7 +60,7 @@ TEST(Canvas, AFillCoversPartsOfPixelsByTheirShare) {
     EXPECT_EQ(canvas.image().at(2, 1).r, 0);
 }
 
-TEST(Pattern, LinesForTheStaffStayWithinThePictureAndLongOnesAreBroken) {
+TEST(Pattern, StaffLinesStayInThePictureAndWrap) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter);
     const image::Image8 black(640, 400, glm::u8vec4(0, 0, 0, 255));

@@ -30,7 +30,7 @@ Placeholder::Input leaving_for_4(double brightness) {
     return input;
 }
 
-TEST(Placeholder, GrowsFromItsPlaceOnTheTableIntoTheProps) {
+TEST(Placeholder, GrowsFromItsTablePlaceToTheProp) {
     Placeholder placeholder;
     Placeholder::Input input = leaving_for_4(1.0);
     input.from = square({0.3, 0.1}, 0.06);
@@ -57,7 +57,7 @@ TEST(Placeholder, GrowsFromItsPlaceOnTheTableIntoTheProps) {
     EXPECT_EQ(there->rectangle.corners(), input.to.corners());
 }
 
-TEST(Placeholder, GrowsFromNothingWhereTheTableShowsNoPicture) {
+TEST(Placeholder, GrowsFromNothingWithoutATablePicture) {
     Placeholder placeholder;
     static_cast<void>(placeholder.step(start, leaving_for_4(1.0)));
     const auto first = placeholder.step(start + milliseconds(8), leaving_for_4(0.9)).picture;
@@ -65,7 +65,7 @@ TEST(Placeholder, GrowsFromNothingWhereTheTableShowsNoPicture) {
     EXPECT_EQ(first->rectangle.centre_m, glm::dvec2(-0.1, 0.0));
 }
 
-TEST(ExhibitThatLoads, ShowsWhatIsReadyAsEver) {
+TEST(ExhibitThatLoads, ShowsReadyArtifactsWithoutAPlaceholder) {
     Exhibit exhibit = sample::exhibit(3, {"en"});
     exhibit.note(std::vector{ArtifactState::Ready, ArtifactState::Ready, ArtifactState::Away});
     MonotonicTime now = start;
@@ -79,7 +79,7 @@ TEST(ExhibitThatLoads, ShowsWhatIsReadyAsEver) {
     EXPECT_EQ(exhibit.step(now, {}, sample::tracked_state(now)).brightness, 1.0);
 }
 
-TEST(ExhibitThatLoads, ShowsAPictureUntilTheArtifactIsThereAndThenFadesItIn) {
+TEST(ExhibitThatLoads, ShowsAPlaceholderUntilTheArtifactIsReady) {
     Exhibit exhibit = sample::exhibit(3, {"en"});
     std::vector<ArtifactState> states{ArtifactState::Ready, ArtifactState::Away, ArtifactState::Away};
     exhibit.note(states);
@@ -117,7 +117,7 @@ TEST(ExhibitThatLoads, ShowsAPictureUntilTheArtifactIsThereAndThenFadesItIn) {
     EXPECT_TRUE(there.settled || there.caption);
 }
 
-TEST(ExhibitThatLoads, NeverShowsWhatIsLeftOut) {
+TEST(ExhibitThatLoads, NeverShowsUnusableArtifacts) {
     Exhibit exhibit = sample::exhibit(4, {"en"});
     exhibit.note(std::vector{ArtifactState::Ready, ArtifactState::Unusable, ArtifactState::Ready,
                              ArtifactState::Unusable});
@@ -137,7 +137,7 @@ TEST(ExhibitThatLoads, NeverShowsWhatIsLeftOut) {
     }
 }
 
-TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
+TEST(ExhibitThatLoads, SkipsAChosenArtifactThatBecomesUnusable) {
     Exhibit exhibit = sample::exhibit(3, {"en"});
     std::vector<ArtifactState> states{ArtifactState::Ready, ArtifactState::Away, ArtifactState::Ready};
     exhibit.note(states);
@@ -167,7 +167,7 @@ TEST(ExhibitThatLoads, GoesOnWithAnotherWhereTheChosenOneTurnsOutBad) {
 }
 
 /// The artifact and the picture in its place light the same part of the table; both are fully white, or one is dark.
-TEST(ExhibitThatLoads, FlashesNoMoreThanThreeTimesASecondWhateverIsPressedAndWhateverComes) {
+TEST(ExhibitThatLoads, FlashesAtMostThreeTimesPerSecond) {
     int most = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);

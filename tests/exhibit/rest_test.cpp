@@ -57,7 +57,7 @@ protected:
     Exhibit exhibit = make(3);
 };
 
-TEST_F(RestTest, NobodyIsThereAtFirst) {
+TEST_F(RestTest, StartsInTheAttractState) {
     wait(seconds(1));
     EXPECT_EQ(shown.state, State::Attract);
     EXPECT_EQ(text(), "attract_line");
@@ -65,7 +65,7 @@ TEST_F(RestTest, NobodyIsThereAtFirst) {
     EXPECT_EQ(shown.advice->brightness, 1.0);
 }
 
-TEST_F(RestTest, TheArtifactsComeInTurnAndInSilence) {
+TEST_F(RestTest, ShowsArtifactsInTurnWithoutSpeech) {
     std::vector<std::size_t> turns;
     for (int k = 0; k < 7; ++k) {
         turns.push_back(shown.artifact);
@@ -76,7 +76,7 @@ TEST_F(RestTest, TheArtifactsComeInTurnAndInSilence) {
     EXPECT_EQ(said, 0);
 }
 
-TEST_F(RestTest, TheFirstTouchKeepsTheArtifactAndItsPlaceAndTheLineFades) {
+TEST_F(RestTest, FirstTouchKeepsTheArtifactAndFadesTheLine) {
     wait(seconds(50));
     ASSERT_EQ(shown.artifact, 2U);
     slide(0.01);
@@ -97,14 +97,14 @@ TEST_F(RestTest, TheFirstTouchKeepsTheArtifactAndItsPlaceAndTheLineFades) {
     EXPECT_EQ(shown.caption->brightness, 1.0);
 }
 
-TEST_F(RestTest, TheFirstPressDoesWhatItSays) {
+TEST_F(RestTest, FirstPressTakesEffect) {
     wait(seconds(1));
     wait(seconds(1), std::array{settings::Command::NextArtifact});
     EXPECT_EQ(shown.state, State::View);
     EXPECT_EQ(shown.artifact, 1U);
 }
 
-TEST_F(RestTest, TheLanguageGoesBackToTheHouses) {
+TEST_F(RestTest, RestoresTheDefaultLanguage) {
     wait(seconds(1), std::array{settings::Command::NextLanguage});
     EXPECT_EQ(shown.language, "de");
     wait(seconds(28));
@@ -116,7 +116,7 @@ TEST_F(RestTest, TheLanguageGoesBackToTheHouses) {
 }
 
 /// A tracker's noise at rest does not count as a visitor; a sentence being spoken ends when the visitor goes.
-TEST_F(RestTest, WhoeverGoesIsNotCalledBack) {
+TEST_F(RestTest, DoesNotSpeakAfterTheVisitorLeaves) {
     wait(seconds(1));
     slide(0.3); // dark
     wait(seconds(7));
@@ -129,7 +129,7 @@ TEST_F(RestTest, WhoeverGoesIsNotCalledBack) {
     EXPECT_EQ(said, before_rest);
 }
 
-TEST_F(RestTest, ALostPropIsAskedForInWordsThenAloudAndThenNoMore) {
+TEST_F(RestTest, AsksForALostPropInWordsThenBySpeech) {
     wait(seconds(1));
     slide(0.02);
     wait(seconds(1));
@@ -151,7 +151,7 @@ TEST_F(RestTest, ALostPropIsAskedForInWordsThenAloudAndThenNoMore) {
 }
 
 /// The artifact turns, and the words beside it do not move.
-TEST_F(RestTest, WordsBesideAnArtifactThatTurnsLieStill) {
+TEST_F(RestTest, WordsStayStillBesideATurningArtifact) {
     wait(seconds(1));
     slide(0.02);
     wait(seconds(1));
@@ -167,7 +167,7 @@ TEST_F(RestTest, WordsBesideAnArtifactThatTurnsLieStill) {
     }
 }
 
-TEST_F(RestTest, WithoutThePropTheRestIsTheSame) {
+TEST_F(RestTest, RestsWithALostPropToo) {
     wait(seconds(1));
     slide(0.02);
     wait(seconds(1));
@@ -181,7 +181,7 @@ TEST_F(RestTest, WithoutThePropTheRestIsTheSame) {
     EXPECT_EQ(shown.state, State::Degraded);
 }
 
-TEST_F(RestTest, APropThatWasLostOutOfTheLightIsAskedBack) {
+TEST_F(RestTest, AsksToSlideBackAPropLostOutsideTheLight) {
     wait(seconds(1));
     slide(0.36);
     wait(milliseconds(100));
@@ -190,7 +190,7 @@ TEST_F(RestTest, APropThatWasLostOutOfTheLightIsAskedBack) {
     EXPECT_EQ(text(), "slide_back_to_light");
 }
 
-TEST_F(RestTest, ATrackerThatDoesNotAnswerIsNotTheVisitorsFault) {
+TEST_F(RestTest, AsksToWaitWhenTheTrackerDoesNotAnswer) {
     wait(seconds(1));
     slide(0.02);
     wait(milliseconds(100));
@@ -200,7 +200,7 @@ TEST_F(RestTest, ATrackerThatDoesNotAnswerIsNotTheVisitorsFault) {
     EXPECT_EQ(text(), "wait_tracker");
 }
 
-TEST_F(RestTest, MetalIsSpokenOfWhereThePictureIsWhole) {
+TEST_F(RestTest, WarnsOfMetalWhileThePictureIsWhole) {
     wait(seconds(1));
     slide(0.02);
     tracked_state.tracker = tracker::TrackerHealth::MetalNear;
@@ -213,7 +213,7 @@ TEST_F(RestTest, MetalIsSpokenOfWhereThePictureIsWhole) {
     EXPECT_TRUE(shown.sign); // a dark face has priority
 }
 
-TEST_F(RestTest, AHeadIsMissedOnlyByWhoeverPlaysOnWithoutIt) {
+TEST_F(RestTest, AsksForALostHeadOnlyDuringPlay) {
     tracked_state.head_known = true;
     wait(seconds(1));
     slide(0.02);
@@ -230,14 +230,14 @@ TEST_F(RestTest, AHeadIsMissedOnlyByWhoeverPlaysOnWithoutIt) {
     EXPECT_EQ(shown.state, State::View);
 }
 
-TEST_F(RestTest, NobodyMissesAHeadThatNeverWasKnown) {
+TEST_F(RestTest, DoesNotAskForAHeadThatWasNeverKnown) {
     wait(seconds(1));
     slide(0.02);
     wait(seconds(10));
     EXPECT_EQ(shown.state, State::View);
 }
 
-TEST_F(RestTest, TheStaffsPatternGoesBackToWhatIsTheCase) {
+TEST_F(RestTest, StaffModeEndsInTheCurrentState) {
     wait(seconds(1));
     slide(0.02);
     wait(seconds(1));
@@ -255,7 +255,7 @@ TEST_F(RestTest, TheStaffsPatternGoesBackToWhatIsTheCase) {
     EXPECT_EQ(shown.artifact, 0U);
 }
 
-TEST_F(RestTest, NothingToShowIsSaidOnTheTable) {
+TEST_F(RestTest, ShowsAFaultWithoutArtifacts) {
     exhibit = make(0);
     wait(seconds(1));
     EXPECT_EQ(shown.state, State::Fault);
@@ -265,7 +265,7 @@ TEST_F(RestTest, NothingToShowIsSaidOnTheTable) {
     EXPECT_EQ(said, 0);
 }
 
-TEST_F(RestTest, WithoutAnythingToShowTheLanguageGoesBackToo) {
+TEST_F(RestTest, RestoresTheDefaultLanguageInTheFaultState) {
     wait(seconds(1), std::array{settings::Command::NextLanguage});
     exhibit.note(std::array{ArtifactState::Unusable, ArtifactState::Unusable, ArtifactState::Unusable});
     wait(seconds(2));

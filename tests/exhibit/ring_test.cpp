@@ -43,7 +43,7 @@ double filled_share(const typography::Ring& ring) {
     return filled / all;
 }
 
-TEST(Ring, FillsAsMuchAsItIsToldBesideTheShadowOfAnyShape) {
+TEST(Ring, FillsTheGivenShareAroundAnyShadow) {
     std::mt19937 random(4);
     for (int k = 0; k < 500; ++k) {
         const typography::TablePolygon shadow = some_shadow(random);
@@ -68,7 +68,7 @@ TEST(Ring, FillsAsMuchAsItIsToldBesideTheShadowOfAnyShape) {
     }
 }
 
-TEST(Ring, BeginsAtTheFarSideAndGoesClockwiseForEveryReader) {
+TEST(Ring, FillsClockwiseFromTheFarSideForEveryReader) {
     typography::TablePolygon square;
     square.points = {glm::dvec2(-0.1, -0.1), glm::dvec2(0.1, -0.1), glm::dvec2(0.1, 0.1),
                      glm::dvec2(-0.1, 0.1)};
@@ -88,7 +88,7 @@ TEST(Ring, BeginsAtTheFarSideAndGoesClockwiseForEveryReader) {
     }
 }
 
-TEST(Ring, FillsOnlyWhatThePictureShows) {
+TEST(Ring, FillsOnlyThePartInThePicture) {
     typography::TablePolygon square;
     square.points = {glm::dvec2(0.2, -0.1), glm::dvec2(0.4, -0.1), glm::dvec2(0.4, 0.1),
                      glm::dvec2(0.2, 0.1)};

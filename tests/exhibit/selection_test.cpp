@@ -42,7 +42,7 @@ TEST(Selection, ThePictureChangesOnlyInTheDark) {
     EXPECT_DOUBLE_EQ(selection.at(press + 2 * fade_time).brightness, 1.0);
 }
 
-TEST(Selection, ArtifactsFollowInACircleBothWays) {
+TEST(Selection, ArtifactsWrapAroundInBothDirections) {
     Selection selection = three_artifacts();
     MonotonicTime now = start + std::chrono::seconds(1);
     const auto after = [&](settings::Command command) {
@@ -90,7 +90,7 @@ TEST(Selection, PressesDuringAFadeNeverMakeTheBrightnessJump) {
 }
 
 /// The picture dims within a few frames, or is about to change anyway; it ends where all the presses lead.
-TEST(Selection, APressShowsAtOnceAndNoneIsForgotten) {
+TEST(Selection, PressShowsAtOnceAndLaterOnesAreQueued) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
     selection.take(settings::Command::NextArtifact, press);
@@ -106,7 +106,7 @@ TEST(Selection, APressShowsAtOnceAndNoneIsForgotten) {
     EXPECT_DOUBLE_EQ(selection.at(press + 4 * fade_time).brightness, 1.0);
 }
 
-TEST(Selection, ACommandThatWaitsAndIsUndoneChangesNothing) {
+TEST(Selection, UndoneQueuedCommandChangesNothing) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
     selection.take(settings::Command::NextArtifact, press);
@@ -119,7 +119,7 @@ TEST(Selection, ACommandThatWaitsAndIsUndoneChangesNothing) {
     }
 }
 
-TEST(Selection, ALanguageChangesTheCaptionInTheDarkAndLeavesTheArtifactBright) {
+TEST(Selection, LanguageChangeFadesOnlyTheCaption) {
     Selection selection = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(5);
     selection.take(settings::Command::NextLanguage, press);
@@ -134,7 +134,7 @@ TEST(Selection, ALanguageChangesTheCaptionInTheDarkAndLeavesTheArtifactBright) {
     EXPECT_EQ(selection.at(press + milliseconds(500)).caption_brightness, 1.0);
 }
 
-TEST(Selection, ALateFrameShowsWhatAnEarlyOneWouldHave) {
+TEST(Selection, BrightnessIsIndependentOfTheFrameRate) {
     Selection often = three_artifacts();
     Selection seldom = three_artifacts();
     const MonotonicTime press = start + std::chrono::seconds(2);
@@ -147,7 +147,7 @@ TEST(Selection, ALateFrameShowsWhatAnEarlyOneWouldHave) {
               seldom.at(press + milliseconds(317)).brightness);
 }
 
-TEST(Selection, TheLanguageButtonGoesThroughTheLanguages) {
+TEST(Selection, LanguageButtonCyclesThroughTheLanguages) {
     Selection selection = three_artifacts();
     selection.take(settings::Command::NextLanguage, start);
     EXPECT_EQ(selection.language(), "de");
@@ -159,7 +159,7 @@ TEST(Selection, TheLanguageButtonGoesThroughTheLanguages) {
     EXPECT_EQ(elsewhere.language(), "en");
 }
 
-TEST(Selection, ACommandThatIsUndoneLeavesWhatWasThere) {
+TEST(Selection, UndoRestoresArtifactAndLanguage) {
     const MonotonicTime later = start + std::chrono::seconds(3);
     for (const settings::Command command :
          {settings::Command::NextArtifact, settings::Command::PreviousArtifact,
@@ -177,7 +177,7 @@ TEST(Selection, ACommandThatIsUndoneLeavesWhatWasThere) {
     }
 }
 
-TEST(Selection, WithoutArtifactsNothingIsShownAndWithOneNothingChanges) {
+TEST(Selection, RejectsCommandsWithFewerThanTwoArtifacts) {
     Selection none(0, {}, "en", start);
     none.take(settings::Command::NextArtifact, start);
     none.take(settings::Command::NextLanguage, start);
@@ -194,7 +194,7 @@ TEST(Selection, WithoutArtifactsNothingIsShownAndWithOneNothingChanges) {
     EXPECT_EQ(one.at(start + milliseconds(1100)).brightness, 1.0);
 }
 
-TEST(Selection, TheCaptionIsInTheLanguageAskedForOrTheNearestThereIs) {
+TEST(Selection, CaptionUsesTheNearestLanguage) {
     const std::vector<std::string> tags{"fr", "de-CH", "en-GB", "de"};
     EXPECT_EQ(caption_for("de", tags), 3U);
     EXPECT_EQ(caption_for("de-AT", tags), 1U);

@@ -57,7 +57,7 @@ protected:
     bool shown = true, attracts = false;
 };
 
-TEST(SiteGround, HasEachRegionInTheProp) {
+TEST(SiteGround, FitsEachRegionIntoTheProp) {
     const geometry::PropShape prop = geometry::make_frustum({});
     const SiteGround ground = four_squares();
     ASSERT_EQ(ground.views.size(), 4U);
@@ -78,7 +78,7 @@ TEST(SiteGround, HasEachRegionInTheProp) {
     }
 }
 
-TEST_F(SiteVisit, MarksWhatIsPointedAtAndGoesThereAndBack) {
+TEST_F(SiteVisit, MarksThePointedRegionAndTravelsThereAndBack) {
     EXPECT_EQ(step().marked, 2U);
     pointed = 1;
     EXPECT_EQ(run(milliseconds(190)).marked, 2U); // not at once
@@ -113,7 +113,7 @@ TEST_F(SiteVisit, MarksWhatIsPointedAtAndGoesThereAndBack) {
     EXPECT_EQ(seen.marked, 3U);
 }
 
-TEST_F(SiteVisit, TurnsBackOnTheWayWithoutAJump) {
+TEST_F(SiteVisit, ReversesOnTheWayWithoutAJump) {
     (void)step();
     (void)step(true);
     world::SiteView before = run(milliseconds(1300)).view.value();
@@ -127,7 +127,7 @@ TEST_F(SiteVisit, TurnsBackOnTheWayWithoutAJump) {
     EXPECT_FALSE(run(seconds(4)).view); // the last press went back
 }
 
-TEST_F(SiteVisit, GoesBackWithoutAVisitorAndEndsWithTheArtifact) {
+TEST_F(SiteVisit, ReturnsWithoutAVisitorAndEndsWithTheArtifact) {
     (void)step();
     (void)step(true);
     ASSERT_EQ(run(seconds(5)).view, ground_.views[2]);

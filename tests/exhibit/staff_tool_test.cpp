@@ -92,7 +92,7 @@ constexpr Row table[] = {
     {"22223O", Sound, White, 0, 1, true, false},
 };
 
-TEST(StaffTool, PressesDoWhatTheTableSays) {
+TEST(StaffTool, PressesHaveTheTabulatedEffects) {
     for (const Row& row : table) {
         Played played;
         played.play(row.presses);
@@ -114,7 +114,7 @@ TEST(StaffTool, PressesDoWhatTheTableSays) {
     }
 }
 
-TEST(StaffTool, TheStateOfDeliveryIsConfirmedOnTheFirstPageWhileItIsOffered) {
+TEST(StaffTool, ResetIsConfirmedOnTheFirstPageOnlyIfOffered) {
     for (const auto& [presses, offered, resets] :
          {std::tuple("F", true, true), std::tuple("1F", true, true), std::tuple("O", true, false),
           std::tuple("2F", true, false), std::tuple("22F", true, false), std::tuple("F", false, false)}) {
@@ -133,7 +133,7 @@ TEST(StaffTool, TheStateOfDeliveryIsConfirmedOnTheFirstPageWhileItIsOffered) {
     EXPECT_FALSE(played.tool.take_reset()) << "what was asked on another picture is over";
 }
 
-TEST(StaffTool, ACopyIsConfirmedOnItsPageWhileItIsOffered) {
+TEST(StaffTool, CopyIsConfirmedOnItsPageOnlyIfOffered) {
     for (const auto& [presses, offered, copies] :
          {std::tuple("222222F", true, true), std::tuple("2222221F", true, true),
           std::tuple("222222O", true, false), std::tuple("222222", true, false),
@@ -158,7 +158,7 @@ TEST(StaffTool, ACopyIsConfirmedOnItsPageWhileItIsOffered) {
 }
 
 /// On every page, with every number of buttons, in either order, and with another press in between.
-TEST(StaffTool, AChordsPressesLeaveNothing) {
+TEST(StaffTool, ChordUndoesItsPresses) {
     for (const std::size_t buttons : {2U, 3U, 4U, 5U}) {
         const char last = static_cast<char>('0' + buttons);
         for (std::size_t pages = 0; pages < staff_page_names.size(); ++pages) {
@@ -179,7 +179,7 @@ TEST(StaffTool, AChordsPressesLeaveNothing) {
     }
 }
 
-TEST(StaffTool, GoesAMinuteAfterTheLastPressAndHalfAnHourAfterItCame) {
+TEST(StaffTool, TimesOutAMinuteAfterAPressOrAfterHalfAnHour) {
     Played played;
     EXPECT_FALSE(played.tool.is_over(start + minutes(1) - milliseconds(1)));
     EXPECT_TRUE(played.tool.is_over(start + minutes(1)));
@@ -206,7 +206,7 @@ TEST(StaffTool, GoesAMinuteAfterTheLastPressAndHalfAnHourAfterItCame) {
     EXPECT_FALSE(uncalibrated.tool.is_over(start + std::chrono::hours(1000)));
 }
 
-TEST(StaffTool, AWhiteAndABlackPictureLoseTheirWordsToBeMeasured) {
+TEST(StaffTool, WhiteAndBlackPicturesHideTheirWordsAfterAWhile) {
     Played played;
     played.play("222");
     EXPECT_TRUE(played.shown().has_words);
@@ -226,7 +226,7 @@ TEST(StaffTool, AWhiteAndABlackPictureLoseTheirWordsToBeMeasured) {
 }
 
 /// With presses every 50 ms, the shown content changes at most every 350 ms, and ends where the presses lead.
-TEST(StaffTool, WhatIsShownFollowsAtAPaceThatDoesNotFlash) {
+TEST(StaffTool, LimitsTheRateOfVisibleChanges) {
     Played played;
     played.play("222");
     StaffView before = played.shown();
@@ -248,7 +248,7 @@ TEST(StaffTool, WhatIsShownFollowsAtAPaceThatDoesNotFlash) {
     EXPECT_EQ(played.shown().light, StaffLight(134 % 3)) << "no press is lost";
 }
 
-TEST(StaffTool, AKeptVolumeIsOneOfItsSteps) {
+TEST(StaffTool, ClampsAndRoundsTheStoredVolume) {
     for (const auto& [kept, counts] :
          std::map<int, int>{{-100, -18}, {-18, -18}, {-4, -3}, {0, 0}, {1, 0}, {2, 3}, {11, 12}, {99, 12}}) {
         StaffTool tool(false);
@@ -261,7 +261,7 @@ TEST(StaffTool, AKeptVolumeIsOneOfItsSteps) {
 
 /// Everything that five buttons, long presses and the chord can reach: the chord's presses are undone everywhere, the
 /// second button leaves every page but the last, every page is reached, and no volume is out of its limits.
-TEST(StaffTool, EveryStateThatCanBeReachedIsInOrder) {
+TEST(StaffTool, EveryReachableStateIsValid) {
     using Key = std::tuple<StaffPage, StaffLight, int, bool>;
     const auto key_of = [](const StaffTool& tool) {
         return Key{tool.shown().page, tool.shown().light, tool.louder_db(), tool.shown().kept};

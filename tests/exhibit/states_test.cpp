@@ -41,7 +41,7 @@ std::string with_spaces(std::string name) {
     return name;
 }
 
-TEST(States, EveryEventLeadsFromEveryStateWhereItShould) {
+TEST(States, TransitionsMatchTheTable) {
     std::istringstream lines(by_hand);
     std::string line;
     std::getline(lines, line);
@@ -72,7 +72,7 @@ Observed observed(unsigned bits) {
 }
 
 /// While nothing changes on the table, states do not alternate.
-TEST(States, WhatStaysTheCaseComesToRest) {
+TEST(States, SettleWhileNothingChanges) {
     for (const StateNote& note : state_notes) {
         for (unsigned bits = 0; bits < 32; ++bits) {
             for (const Event visitor : {Event::Rest, Event::VisitorComes}) {
@@ -97,7 +97,7 @@ TEST(States, WhatStaysTheCaseComesToRest) {
     }
 }
 
-TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
+TEST(States, OnlyFaultAndStaffShowNoArtifact) {
     for (const StateNote& note : state_notes) {
         EXPECT_EQ(note.artifact, note.state != State::Fault && note.state != State::Staff) << note.name;
         EXPECT_TRUE(!note.voice || note.words == Words::Advice || note.words == Words::Narration)
@@ -106,13 +106,13 @@ TEST(States, OnlyAFaultAndTheStaffsPatternAreWithoutAnArtifact) {
     EXPECT_FALSE(note_of(State::Attract).voice); // no visitor can hear it
 }
 
-TEST(StatesPage, IsTheOneInTheDocuments) {
+TEST(StatesPage, MatchesTheCommittedPage) {
     const std::string committed = text_of(source_dir() + "/docs/states.md");
     EXPECT_EQ(states_page(), committed) << "write it again: frustumscreen states > docs/states.md";
 }
 
 /// The committed page, compared with the hand-written table.
-TEST(StatesPage, LeadsWhereItShould) {
+TEST(StatesPage, ContainsEveryTransition) {
     const std::string page = text_of(source_dir() + "/docs/states.md");
     std::istringstream lines(by_hand);
     std::size_t rows = 0;
@@ -128,7 +128,7 @@ TEST(StatesPage, LeadsWhereItShould) {
 }
 
 /// The picture has the edges of the graph from which it was drawn.
-TEST(StatesPage, ThePictureHasEveryEdgeOfTheGraph) {
+TEST(StatesPage, PictureHasEveryEdgeOfTheGraph) {
     const std::string svg = text_of(source_dir() + "/docs/states.svg");
     std::istringstream graph(states_graph());
     std::size_t edges = 0;

@@ -55,7 +55,7 @@ TEST(NoticeText, each_stage_has_its_sentence_and_its_ring) {
     EXPECT_EQ(notice_text(failed).sentences, (Keys{"stick.refused.unreadable"}));
 }
 
-TEST(NoticeText, wrong_settings_are_told_with_their_line) {
+TEST(NoticeText, reports_wrong_settings_with_their_line) {
     library::ImportReport report = report_of("a", library::ImportStage::Done);
     report.packs = {
         {"kiosk.toml", "", library::ImportOutcome::Refused, library::ImportRefusal::NotAPack, "line 3: no"},
@@ -68,7 +68,7 @@ TEST(NoticeText, wrong_settings_are_told_with_their_line) {
     EXPECT_EQ(notice_text(report).remark, "") << "what a curator must mend is in the report alone";
 }
 
-TEST(NoticeText, a_report_on_the_stick_is_told_by_its_folder_and_a_missing_one_by_its_reason) {
+TEST(NoticeText, names_the_folder_of_a_report_or_why_it_is_missing) {
     library::ImportReport report = report_of("a", library::ImportStage::Done);
     report.packs = {{"frustumscreen-report-2031-05-04-120000", "", library::ImportOutcome::Written, {}, ""}};
     EXPECT_EQ(notice_text(report), (NoticeText{{"stick.take_out"},
@@ -87,7 +87,7 @@ TEST(NoticeText, a_report_on_the_stick_is_told_by_its_folder_and_a_missing_one_b
     EXPECT_NE(notice_text(report).remark, "");
 }
 
-TEST(NoticeText, a_request_that_waits_for_the_staff_is_told_alone) {
+TEST(NoticeText, shows_only_the_instruction_for_a_pending_request) {
     library::ImportReport report = report_of("a", library::ImportStage::Done);
     report.packs = {
         {"frustumscreen-request.toml", "", library::ImportOutcome::Pending, {}, "hold the first button"}};
@@ -96,7 +96,7 @@ TEST(NoticeText, a_request_that_waits_for_the_staff_is_told_alone) {
         (NoticeText{{"stick.take_out"}, {}, false, "frustumscreen-request.toml: hold the first button"}));
 }
 
-TEST(ResetOffer, StandsTenMinutesAfterASignedStick) {
+TEST(ResetOffer, ExpiresTenMinutesAfterASignedStick) {
     const MonotonicTime start{std::chrono::seconds(100)};
     library::ImportReport asks = report_of("a", library::ImportStage::Found);
     asks.packs = {{"frustumscreen-request.toml", "", library::ImportOutcome::Pending, {}, "hold"}};
@@ -126,7 +126,7 @@ TEST(ResetOffer, StandsTenMinutesAfterASignedStick) {
     EXPECT_FALSE(offer.at(start + std::chrono::minutes(3)));
 }
 
-TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {
+TEST(NoticeText, maps_each_outcome_and_refusal_to_a_word) {
     std::set<std::string> keys;
     for (const auto& [key, letters] : synthetic::stick_words()) {
         keys.insert(key);
@@ -143,7 +143,7 @@ TEST(NoticeText, each_outcome_and_refusal_has_a_word_of_its_own) {
     }
 }
 
-TEST(NoticeText, a_refused_pack_is_called_by_its_file_and_comes_first) {
+TEST(NoticeText, lists_refused_packs_first_by_file_name) {
     library::ImportReport report = report_of("a", library::ImportStage::Done);
     report.packs = {pack_of("vase", library::ImportOutcome::Taken),
                     pack_of("old", library::ImportOutcome::Removed),
@@ -156,7 +156,7 @@ TEST(NoticeText, a_refused_pack_is_called_by_its_file_and_comes_first) {
                                        {"Title of old", "old.fspack", "stick.removed"}}));
 }
 
-TEST(NoticeText, every_pack_is_counted_once_whatever_there_is) {
+TEST(NoticeText, counts_every_pack_once) {
     std::mt19937 random(7);
     for (int round = 0; round < 400; ++round) {
         library::ImportReport report =
@@ -231,7 +231,7 @@ TEST(StickNotice, lines_stay_for_two_minutes_or_until_a_press) {
     }
 }
 
-TEST(StickNotice, what_was_over_before_the_exhibit_began_is_not_shown) {
+TEST(StickNotice, ignores_imports_that_ended_before_the_start) {
     for (const library::ImportStage stage : {library::ImportStage::Done, library::ImportStage::Failed}) {
         StickNotice notice;
         notice.take(start, report_of("a", stage), true);
@@ -247,7 +247,7 @@ TEST(StickNotice, what_was_over_before_the_exhibit_began_is_not_shown) {
     EXPECT_TRUE(notice.at(start + seconds(1)));
 }
 
-TEST(StickNotice, a_copy_that_stands_still_is_said_to_have_stopped) {
+TEST(StickNotice, reports_a_stalled_copy_as_stopped) {
     StickNotice notice;
     notice.take(start, report_of("a", library::ImportStage::Copying, 20), false);
     const MonotonicTime renewed = start + seconds(20);
@@ -269,7 +269,7 @@ TEST(StickNotice, a_copy_that_stands_still_is_said_to_have_stopped) {
     EXPECT_TRUE(looked.at(start + seconds(90))->stopped);
 }
 
-TEST(StickNotice, sizes_that_lie_break_nothing) {
+TEST(StickNotice, clamps_the_ring_for_inconsistent_sizes) {
     StickNotice notice;
     notice.take(start, report_of("a", library::ImportStage::Copying, 500, 100), false);
     EXPECT_EQ(*notice.at(start + seconds(1))->ring, 1.0);
@@ -280,7 +280,7 @@ TEST(StickNotice, sizes_that_lie_break_nothing) {
 }
 
 /// Any reports in any order, and presses; the ring's end moves no faster than a smooth step of 0.3 s.
-TEST(StickNotice, whatever_comes_the_ring_moves_softly_and_nothing_stays_for_ever) {
+TEST(StickNotice, ring_moves_smoothly_and_notices_expire) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         std::mt19937 random(seed);
         StickNotice notice;

@@ -62,7 +62,7 @@ struct Visitor {
     }
 };
 
-TEST(TableBrowser, ShowsAllOthersAndWhatIsRestedOnComesIntoTheProp) {
+TEST(TableBrowser, ShowsTheOthersAndChoosesTheRestedPicture) {
     Visitor visitor(6);
     visitor.wait(0.6);
     EXPECT_EQ(visitor.bright(), (std::set<std::size_t>{1, 2, 3, 4, 5}));
@@ -88,7 +88,7 @@ TEST(TableBrowser, ShowsAllOthersAndWhatIsRestedOnComesIntoTheProp) {
     EXPECT_FALSE(visitor.browser.presented().ring);
 }
 
-TEST(TableBrowser, TheLastPlaceLeadsThroughAllPagesAndAnArtifactBringsItsOwn) {
+TEST(TableBrowser, LastPlaceTurnsPagesAndAnArtifactOpensItsPage) {
     Visitor visitor(50);
     visitor.wait(0.6);
     const TableLayout layout = lay_out_table(visitor.set_up, 0);
@@ -135,7 +135,7 @@ TEST(TableBrowser, PicturesTurnToTheReaderInTheDark) {
 }
 
 /// No picture jumps: it dims at most as fast as its fade and the prop's shadow.
-TEST(TableBrowser, NothingJumpsWhateverIsPressedAndWhereverTheReaderGoes) {
+TEST(TableBrowser, BrightnessNeverJumpsOnRandomInput) {
     std::mt19937_64 random(41);
     Visitor visitor(30);
     visitor.wait(0.6);

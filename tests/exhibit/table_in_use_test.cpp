@@ -9,7 +9,7 @@ namespace frustumscreen::exhibit {
 namespace {
 
 /// A caption finds space in the area that is left for it.
-TEST(TableInUse, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
+TEST(TableInUse, CaptionFitsBesideThePicturesWithThePropAtHome) {
     std::mt19937_64 random(17);
     int tried = 0;
     for (int k = 0; k < 400; ++k) {
@@ -45,7 +45,7 @@ TEST(TableInUse, ACaptionIsAlwaysShownBesideThePicturesWhileThePropIsAtHome) {
 }
 
 /// The picture under the prop dims without a jump as the prop approaches, and the others stay.
-TEST(TableInUse, APictureDimsSoftlyWhileThePropComesAndOthersStay) {
+TEST(TableInUse, PictureDimsSmoothlyAsThePropApproaches) {
     TableSetUp set_up;
     set_up.artifacts = 12;
     set_up.picture_m = {{-0.4, -0.25}, {0.4, -0.25}, {0.4, 0.25}, {-0.4, 0.25}};

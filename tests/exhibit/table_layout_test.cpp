@@ -82,7 +82,7 @@ void expect_every_artifact_once(const TableLayout& layout) {
     EXPECT_EQ(layout.has_more, layout.pages() > 1);
 }
 
-TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHomeOnAnyTable) {
+TEST(TableLayout, NothingOverlapsOrLiesUnderThePropAtHome) {
     std::mt19937_64 random(14);
     std::map<std::size_t, int> by_places;
     int with_caption = 0;
@@ -126,7 +126,7 @@ bool equal(const typography::TableRectangle& a, const typography::TableRectangle
     return a.centre_m == b.centre_m && a.size_m == b.size_m && a.quarter_turns == b.quarter_turns;
 }
 
-TEST(TableLayout, IsTheSameWheneverItIsMade) {
+TEST(TableLayout, IsDeterministic) {
     std::mt19937_64 random(15);
     for (int k = 0; k < 200; ++k) {
         const TableSetUp set_up = some_set_up(random);
@@ -252,7 +252,7 @@ struct Expected {
     double picture_m;    ///< at least
 };
 
-TEST(TableLayout, SaysHowManyFitOnTheTablesThatAreShipped) {
+TEST(TableLayout, ShippedTablesHoldTheExpectedNumber) {
     for (const Expected& expected :
          {Expected{"kiosk", 2, 2, 0.095}, Expected{"kiosk", 6, 6, 0.084}, Expected{"kiosk", 12, 12, 0.07},
           Expected{"kiosk", 50, 10, 0.07}, Expected{"cube", 3, 3, 0.085}, Expected{"cube", 12, 12, 0.06},
@@ -274,7 +274,7 @@ TEST(TableLayout, SaysHowManyFitOnTheTablesThatAreShipped) {
     }
 }
 
-TEST(TableLayout, ATableWithoutRoomHasNoPlaces) {
+TEST(TableLayout, HasNoPlacesWithoutRoom) {
     TableSetUp set_up;
     set_up.artifacts = 5;
     set_up.prop = geometry::make_frustum(geometry::shipped_frustum);

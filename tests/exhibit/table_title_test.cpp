@@ -56,7 +56,7 @@ std::array<int, 2> letters_in(const typography::CaptionImage& title) {
     return letters;
 }
 
-TEST(TableTitle, StaysOnOneLineThatFits) {
+TEST(TableTitle, StaysOnOneLineIfItFits) {
     const Squares squares;
     const typography::CaptionImage title =
         typography::make_table_title(squares.runs, squares.atlas, Squares::title("abc de"), texels_per_m);
@@ -65,7 +65,7 @@ TEST(TableTitle, StaysOnOneLineThatFits) {
     EXPECT_LE(title.size_m.y, 0.022);
 }
 
-TEST(TableTitle, IsBrokenWhereItsLinesAreAboutEqual) {
+TEST(TableTitle, BreaksIntoTwoLinesOfSimilarLength) {
     const Squares squares;
     const typography::CaptionImage title = typography::make_table_title(
         squares.runs, squares.atlas, Squares::title("abc de fghij k"), texels_per_m);
@@ -79,7 +79,7 @@ TEST(TableTitle, IsBrokenWhereItsLinesAreAboutEqual) {
     EXPECT_EQ(letters_in(arabic), (std::array<int, 2>{6, 5}));
 }
 
-TEST(TableTitle, IsCutOffSoftlyWhereItDoesNotFit) {
+TEST(TableTitle, TruncatesWithAFade) {
     const Squares squares;
     for (const pack::TextDirection direction :
          {pack::TextDirection::LeftToRight, pack::TextDirection::RightToLeft}) {
@@ -100,7 +100,7 @@ TEST(TableTitle, IsCutOffSoftlyWhereItDoesNotFit) {
     }
 }
 
-TEST(TableTitle, OfAPackWithoutGlyphRunsHasTwoLinesToo) {
+TEST(TableTitle, PlainTextFitsTheWidthAndTwoLines) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open();
     ASSERT_TRUE(typesetter) << typesetter.error().message;
     const typography::CaptionImage title = typography::make_table_title(

@@ -21,7 +21,7 @@ protected:
     std::optional<typography::Typesetter> typesetter;
 };
 
-TEST_F(Text, ALineGrowsWithItsLettersAndItsSize) {
+TEST_F(Text, LineGrowsWithItsLettersAndItsSize) {
     const image::Image<std::uint8_t> one = typesetter->line("n", 40.0);
     const image::Image<std::uint8_t> three = typesetter->line("nnn", 40.0);
     EXPECT_NEAR(three.width - one.width, 2.0 * 0.634 * 40.0, 2.0); // an n is 0.634 em wide
@@ -39,7 +39,7 @@ TEST_F(Text, LettersOfSeveralScriptsAreNotTheMissingGlyph) {
     }
 }
 
-TEST_F(Text, DamagedUtf8ShowsReplacementsAndNothingWorse) {
+TEST_F(Text, InvalidUtf8ShowsReplacementCharacters) {
     const image::Image<std::uint8_t> replacement = typesetter->line("\uFFFD", 30.0);
     EXPECT_EQ(typesetter->line("\xFF", 30.0).texels, replacement.texels);
     EXPECT_EQ(typesetter->line("\xC3", 30.0).texels, replacement.texels);
@@ -59,7 +59,7 @@ TEST_F(Text, LinesAreBrokenAtSpacesWithinTheWidth) {
                 0.02 * static_cast<double>(ink(flat)));
 }
 
-TEST_F(Text, AWordLongerThanTheLineIsBrokenAndALineBreakBreaks) {
+TEST_F(Text, BreaksLongWordsAndAtLineBreaks) {
     const typography::Paragraph word{"Donaudampfschifffahrtsgesellschaft", 20.0};
     EXPECT_LE(typesetter->set(std::span(&word, 1), 100.0).width, 104);
     const typography::Paragraph two{"a\nb", 20.0};
@@ -70,12 +70,12 @@ TEST_F(Text, AWordLongerThanTheLineIsBrokenAndALineBreakBreaks) {
     EXPECT_GT(typesetter->set(std::span(&thin, 1), 1.0).height, 60); // one letter a line, and it terminates
 }
 
-TEST_F(Text, NothingIsAnEmptyPicture) {
+TEST_F(Text, EmptyTextIsAnEmptyPicture) {
     EXPECT_EQ(typesetter->set({}, 100.0).width, 1);
     EXPECT_EQ(ink(typesetter->line("", 20.0)), 0);
 }
 
-TEST(TextFiles, AMissingTypefaceIsOneLineThatSaysWhatToDo) {
+TEST(TextFiles, ReportsAMissingTypefaceInOneLine) {
     const Result<typography::Typesetter> typesetter = typography::Typesetter::open("/nonexistent");
     ASSERT_FALSE(typesetter);
     EXPECT_EQ(typesetter.error().id, "typeface.missing") << typesetter.error().message;

@@ -32,7 +32,7 @@ torch::Beam beam_of(double opening_deg) {
     return beam;
 }
 
-TEST(TorchAimOf, IsLightsExactlyWhileTheBeamMeetsTheSphere) {
+TEST(TorchAimOf, LightsExactlyWhileTheBeamMeetsTheSphere) {
     const LitObject object{{0.1, -0.05, 0.07}, 0.08};
     const torch::Beam beam = beam_of(20.0);
     const glm::dvec3 from(0.4, -0.3, 0.3);
@@ -65,7 +65,7 @@ TEST(TorchAimOf, IsTooFarBeyondTheReach) {
     EXPECT_EQ(aim_of(beam, torch_at({0.0, -reach - 0.101, 0.0}, object.centre_m), object), TorchAim::TooFar);
 }
 
-TEST(TorchAdvice, ComesAfterAWhileAndGoesAtOnce) {
+TEST(TorchAdvice, AppearsAfterADelayAndDisappearsAtOnce) {
     TorchAdvice advice;
     MonotonicTime now = sample::start;
     EXPECT_FALSE(advice.step(now, TorchAim::Past));
@@ -170,7 +170,7 @@ struct Lights {
     bool next = false, leave = false, gone = false;
 };
 
-TEST(TorchLights, OfNoTorchAreNone) {
+TEST(TorchLights, AbsentWithoutATorch) {
     Lights lights;
     lights.state.torches[0].share = 0.0;
     const PresentedTorches presented = lights.step();
@@ -195,7 +195,7 @@ TEST(TorchLights, BeginWithTheFirstContentAndFollowTheShare) {
     EXPECT_EQ(lights.torches.aim(), TorchAim::Lights);
 }
 
-TEST(TorchLights, GoThroughTheContentsAndPlainLightThroughADarkMoment) {
+TEST(TorchLights, CycleThroughContentsAndPlainLightWithAFade) {
     Lights lights;
     (void)lights.after(seconds(2));
     for (const std::optional<std::size_t> expected :
@@ -230,7 +230,7 @@ TEST(TorchLights, GoThroughTheContentsAndPlainLightThroughADarkMoment) {
     EXPECT_FALSE(plain.lights()[0].content);
 }
 
-TEST(TorchLights, OfTwoTorchesTheOneTakenLastIsChangedAndTheyHaveTwoColours) {
+TEST(TorchLights, ChangeTheLastTakenTorchAndDifferInColour) {
     Lights lights;
     (void)lights.step();
     lights.state.torches[1].share = 1.0;
@@ -246,7 +246,7 @@ TEST(TorchLights, OfTwoTorchesTheOneTakenLastIsChangedAndTheyHaveTwoColours) {
     EXPECT_EQ(lights.torches.content(), std::optional<std::size_t>(0));
 }
 
-TEST(TorchLights, LeftOnStayOnTheObjectWhereverPropAndTorchGo) {
+TEST(TorchLights, LeftLightsStayOnTheObject) {
     Lights lights;
     (void)lights.step();
     lights.leave = true;
@@ -276,7 +276,7 @@ TEST(TorchLights, LeftOnStayOnTheObjectWhereverPropAndTorchGo) {
     EXPECT_TRUE(lights.after(seconds(1)).lights().empty());
 }
 
-TEST(TorchLights, LeftOnAreTwoAtMostAndTheNewestStay) {
+TEST(TorchLights, KeepOnlyTheTwoNewestLeftLights) {
     Lights lights;
     std::array<glm::dvec3, 3> places{};
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -297,7 +297,7 @@ TEST(TorchLights, LeftOnAreTwoAtMostAndTheNewestStay) {
     EXPECT_EQ(lights.step().lights().size(), 1U);
 }
 
-TEST(TorchLights, ALightThatLightsNothingIsNotLeft) {
+TEST(TorchLights, DoNotLeaveALightThatMissesTheObject) {
     Lights lights;
     lights.state.torches[0].table_from_torch = torch_at({0.3, -0.2, 0.3}, {1.0, 0.0, 0.0});
     (void)lights.step();
@@ -308,7 +308,7 @@ TEST(TorchLights, ALightThatLightsNothingIsNotLeft) {
 }
 
 /// However many torches and left lights there are, the renderer has places for all.
-TEST(TorchLights, AreAsManyAsTheRendererDrawsAtMostAndAllocateNothing) {
+TEST(TorchLights, NeverExceedTheRenderersLimitNorAllocate) {
     Lights lights;
     lights.state.torches[1].share = 1.0;
     (void)lights.step();
@@ -362,7 +362,7 @@ protected:
     Exhibit exhibit = make(2);
 };
 
-TEST_F(TorchExhibit, ATakenTorchIsAVisitor) {
+TEST_F(TorchExhibit, TakenTorchCountsAsAVisitor) {
     state.torches[0].share = 0.0;
     EXPECT_EQ(run(seconds(2)).state, State::Attract);
     state.torches[0].share = 1.0;
@@ -383,7 +383,7 @@ TEST_F(TorchExhibit, ChooseChangesTheContentAndBehaviourLeavesTheLight) {
     EXPECT_TRUE(shown.behaviours.events().empty());
 }
 
-TEST_F(TorchExhibit, WithoutATorchInAHandTheButtonsAreTheirOwn) {
+TEST_F(TorchExhibit, BehaviourButtonKeepsItsMeaningWithoutATorch) {
     state.torches[0].share = 0.0;
     (void)run(seconds(3), {Command::NextLanguage, Command::NextLanguage});
     Presentation first = exhibit.step(now += milliseconds(20), std::vector{Command::Behaviour}, state);
@@ -391,7 +391,7 @@ TEST_F(TorchExhibit, WithoutATorchInAHandTheButtonsAreTheirOwn) {
     EXPECT_TRUE(run(seconds(1)).torches.lights().empty());
 }
 
-TEST_F(TorchExhibit, TheTitleOfWhatIsThrownTakesThePlaceOfTheBehaviours) {
+TEST_F(TorchExhibit, ContentTitleReplacesTheBehaviourTitle) {
     Presentation shown = run(seconds(5), {Command::NextLanguage, Command::NextLanguage});
     ASSERT_TRUE(shown.title);
     EXPECT_EQ(shown.title->title.behaviour, 1U); // behind the one behaviour
@@ -406,7 +406,7 @@ TEST_F(TorchExhibit, TheTitleOfWhatIsThrownTakesThePlaceOfTheBehaviours) {
     EXPECT_EQ(shown.title->title.behaviour, 0U);
 }
 
-TEST_F(TorchExhibit, AVisitorWhoseTorchPointsPastTheObjectIsTold) {
+TEST_F(TorchExhibit, AdvisesWhenTheTorchMissesTheObject) {
     (void)run(seconds(3), {Command::NextLanguage, Command::NextLanguage});
     EXPECT_EQ(words(run(seconds(10))), "");
     state.torches[0].table_from_torch = torch_at({0.3, -0.2, 0.3}, {2.0, -0.4, 0.0});
@@ -423,7 +423,7 @@ TEST_F(TorchExhibit, AVisitorWhoseTorchPointsPastTheObjectIsTold) {
     EXPECT_EQ(words(run(seconds(2))), "");
 }
 
-TEST_F(TorchExhibit, WhatWasLeftOnGoesWhenNobodyIsThere) {
+TEST_F(TorchExhibit, RemovesLeftLightsWithoutAVisitor) {
     (void)run(seconds(3), {Command::NextLanguage});
     (void)run(seconds(1), {Command::Behaviour});
     state.torches[0].share = 0.0;
@@ -433,7 +433,7 @@ TEST_F(TorchExhibit, WhatWasLeftOnGoesWhenNobodyIsThere) {
     EXPECT_TRUE(gone.torches.lights().empty());
 }
 
-TEST_F(TorchExhibit, TheArtifactIsDimmedSoftlyWhileATorchIsHeld) {
+TEST_F(TorchExhibit, DimsTheArtifactWhileATorchIsHeld) {
     Presentation shown = run(seconds(3), {Command::NextLanguage});
     EXPECT_NEAR(shown.brightness, 0.4, 1e-9);
     EXPECT_EQ(shown.torches.lights()[0].brightness, 1.0);
@@ -441,7 +441,7 @@ TEST_F(TorchExhibit, TheArtifactIsDimmedSoftlyWhileATorchIsHeld) {
     EXPECT_EQ(run(milliseconds(20)).brightness, 1.0);
 }
 
-TEST_F(TorchExhibit, AnotherSetBeginsWithNothingLeftOn) {
+TEST_F(TorchExhibit, NewSetStartsWithoutLeftLights) {
     (void)run(seconds(3), {Command::NextLanguage});
     EXPECT_EQ(run(seconds(1), {Command::Behaviour}).torches.lights().size(), 2U);
     const std::vector<std::string> languages{"en"};

@@ -54,7 +54,7 @@ TEST(TurnedCaption, StandsUprightForTheReaderBetweenThemAndTheProp) {
     }
 }
 
-TEST(TurnedCaption, FadesOutAndInAgainWhenTheReaderGoesAround) {
+TEST(TurnedCaption, FadesOutAndInWhenTheReaderChangesSides) {
     Reader reader;
     reader.step(0);
     typography::CaptionPlace before = reader.step(0, milliseconds(400));
@@ -73,7 +73,7 @@ TEST(TurnedCaption, FadesOutAndInAgainWhenTheReaderGoesAround) {
     EXPECT_EQ(before.opacity, 1.0);
 }
 
-TEST(TurnedCaption, AReaderWhoComesBackAtOnceLosesNothing) {
+TEST(TurnedCaption, StaysForAReaderWhoReturnsAtOnce) {
     Reader reader;
     reader.step(0);
     reader.step(0, milliseconds(400));

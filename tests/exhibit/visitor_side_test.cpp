@@ -14,7 +14,7 @@ glm::dvec3 eye_at(double degrees_from_front, double distance_m = 0.8) {
     return {distance_m * std::cos(azimuth), distance_m * std::sin(azimuth), 0.5};
 }
 
-TEST(VisitorSide, IsTheOneThatTheFirstVisitorStandsAt) {
+TEST(VisitorSide, StartsAtTheFirstVisitorsSide) {
     for (int side = 0; side < 4; ++side) {
         for (const double off : {-40.0, 0.0, 40.0}) {
             typography::VisitorSide visitor;
@@ -23,7 +23,7 @@ TEST(VisitorSide, IsTheOneThatTheFirstVisitorStandsAt) {
     }
 }
 
-TEST(VisitorSide, GoesAroundWithTheVisitorBothWays) {
+TEST(VisitorSide, FollowsTheVisitorInBothDirections) {
     typography::VisitorSide visitor;
     int turns = 0;
     int before = visitor.update(eye_at(0.0));

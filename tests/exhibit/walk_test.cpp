@@ -300,7 +300,7 @@ private:
 /// Sanitizers take ten times as long, and fewer events are sufficient for them.
 constexpr int events = synthetic::allocations_are_counted ? 1'000'000 : 75'000;
 
-TEST(Walk, EventsFindNothingThatMustNotBe) {
+TEST(Walk, InvariantsHoldForRandomEvents) {
     Walk walk(11);
     for (int k = 0; k < events && !::testing::Test::HasFailure(); ++k) {
         walk.step();
@@ -323,7 +323,7 @@ TEST(Walk, EventsFindNothingThatMustNotBe) {
 }
 
 /// Frames that fall anywhere in the fades find the words, or one frame between the two languages does not.
-TEST(Walk, AFaultsWordsAreDarkForAMomentWhileTheirLanguageChanges) {
+TEST(Walk, FaultTextIsDarkForOneFrameOnALanguageChange) {
     Exhibit exhibit = walked_exhibit();
     exhibit.note(std::array{ArtifactState::Unusable, ArtifactState::Unusable, ArtifactState::Unusable,
                             ArtifactState::Unusable});

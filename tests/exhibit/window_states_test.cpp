@@ -26,7 +26,7 @@ geometry::RigidTransform turned_by(double degrees, const glm::dvec3& at) {
     return {glm::angleAxis(glm::radians(degrees), vertical), at};
 }
 
-TEST(WindowHistory, PinsWhatIsSeenAndThenEachStateOfTheSameView) {
+TEST(WindowHistory, PinsTheSeenViewThenEachStateOfIt) {
     WindowHistory history;
     const ViewToPin seen{std::nullopt, {0.0, -0.6, 0.5}, turned_by(10.0, {0.1, 0.0, 0.0})};
     ViewToPin later{std::nullopt, {0.1, -0.5, 0.5}, turned_by(13.0, {0.105, 0.0, 0.0})}; // a little farther
@@ -64,7 +64,7 @@ WindowLens::View after(WindowLens& lens, MonotonicTime& now, const geometry::Rig
     return lens.view();
 }
 
-TEST(WindowLens, TheContentTurnsWithThePropAlsoByMoreThanATurn) {
+TEST(WindowLens, ContentTurnsWithThePropBeyondAFullTurn) {
     WindowLens lens;
     MonotonicTime now = sample::start;
     lens.begin(now, {0.5, 1.0}, turned_by(170.0, {}));
@@ -76,7 +76,7 @@ TEST(WindowLens, TheContentTurnsWithThePropAlsoByMoreThanATurn) {
     EXPECT_NEAR(view.zoom, 1.0, 1e-9);
 }
 
-TEST(WindowLens, LiftingAndDrawingNearMakesItLargerWithinLimits) {
+TEST(WindowLens, LiftingOrApproachingZoomsWithinLimits) {
     struct Row {
         glm::dvec3 way;
         int side = 0;
@@ -95,7 +95,7 @@ TEST(WindowLens, LiftingAndDrawingNearMakesItLargerWithinLimits) {
     }
 }
 
-TEST(WindowLens, EndsWhenThePropIsStillAfterItMovedOrNeverMoves) {
+TEST(WindowLens, EndsWhenThePropRestsOrNeverMoves) {
     const auto on_for = [](bool moves) {
         WindowLens lens;
         const MonotonicTime begin = sample::start;
@@ -147,7 +147,7 @@ protected:
     Exhibit exhibit{catalogue(), place(), "en", sample::start};
 };
 
-TEST_F(StatesExhibit, FurtherPressesPinTheStatesBesideItWithTheirTitles) {
+TEST_F(StatesExhibit, FurtherPressesPinTitledStates) {
     const glm::dvec3 eye = state.eye_m;
     (void)run(seconds(2), {Command::Window});
     state.eye_m.x += 0.1;
@@ -182,7 +182,7 @@ TEST_F(StatesExhibit, FurtherPressesPinTheStatesBesideItWithTheirTitles) {
     EXPECT_FALSE(run(seconds(2), {Command::Window}).windows.windows().back().state) << "begins anew";
 }
 
-TEST_F(StatesExhibit, ATitleThatALanguageLacksIsNotShown) {
+TEST_F(StatesExhibit, HidesATitleMissingInTheLanguage) {
     (void)run(seconds(2), {Command::Window});
     (void)run(seconds(2), {Command::Window});
     (void)run(seconds(2), {Command::Window});
@@ -194,13 +194,13 @@ TEST_F(StatesExhibit, ATitleThatALanguageLacksIsNotShown) {
     EXPECT_EQ(shown.windows.windows()[2].title.size_m.y, 0.0);
 }
 
-TEST_F(StatesExhibit, APropThatMovesBeginsANewHistory) {
+TEST_F(StatesExhibit, MovingThePropStartsANewHistory) {
     (void)run(seconds(2), {Command::Window});
     state.table_from_prop.translation.x -= 0.02;
     EXPECT_FALSE(run(seconds(2), {Command::Window}).windows.windows().back().state);
 }
 
-TEST_F(StatesExhibit, AHeldButtonLetsThePropTurnTheNewestWindow) {
+TEST_F(StatesExhibit, HeldButtonTurnsTheNewestWindowWithTheProp) {
     (void)run(seconds(2), {Command::Window});
     Presentation shown = run(seconds(2), {Command::Window});
     const std::uint32_t comings = shown.windows.windows()[1].comings;
@@ -220,13 +220,13 @@ TEST_F(StatesExhibit, AHeldButtonLetsThePropTurnTheNewestWindow) {
     EXPECT_EQ(shown.windows.windows()[0].turn_rad, 0.0);
 }
 
-TEST_F(StatesExhibit, APressEndsTheLens) {
+TEST_F(StatesExhibit, PressEndsTheLens) {
     (void)run(seconds(2), {Command::Window});
     EXPECT_TRUE(run(milliseconds(40), {Command::HoldWindow}).windows.windows()[0].follows);
     EXPECT_FALSE(run(milliseconds(40), {Command::NextLanguage}).windows.windows()[0].follows);
 }
 
-TEST_F(StatesExhibit, OnlyAWindowOfWhatThePropShowsIsLive) {
+TEST_F(StatesExhibit, OnlyTheWindowOfTheShownStateIsLive) {
     exhibit = Exhibit{catalogue(), place(true), "en", now};
     (void)run(seconds(3), {Command::Help});
     (void)run(seconds(2), {Command::Window});
@@ -235,7 +235,7 @@ TEST_F(StatesExhibit, OnlyAWindowOfWhatThePropShowsIsLive) {
     EXPECT_FALSE(shown.windows.windows()[1].live);
 }
 
-TEST_F(StatesExhibit, APressAndTheLensAllocateNothing) {
+TEST_F(StatesExhibit, PressAndLensAllocateNothing) {
     (void)run(seconds(2), {Command::Window});
     const std::vector<Command> press{Command::Window}, hold{Command::HoldWindow};
     const long before = synthetic::allocations_so_far();

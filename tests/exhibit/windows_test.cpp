@@ -39,7 +39,7 @@ std::array<glm::dvec2, 4> moved(std::array<glm::dvec2, 4> corners, const glm::dv
 }
 
 /// Compares with a search in all directions: no shorter slide makes the two clear of each other.
-TEST(SlideClear, IsTheShortestSlideThatPartsTwoThings) {
+TEST(SlideClear, FindsTheShortestSeparatingSlide) {
     bench::Seeded random(5);
     int touching = 0;
     for (int k = 0; k < 400; ++k) {
@@ -120,7 +120,7 @@ struct Desk {
     std::vector<TableRectangle> obstacles;
 };
 
-TEST(WindowDesk, KeepsPoseAndEyeOfThePressAndFadesInBesideTheProp) {
+TEST(WindowDesk, KeepsTheEyeOfThePressAndFadesInBesideTheProp) {
     Desk desk;
     desk.run(milliseconds(100));
     ASSERT_TRUE(desk.desk.can_pin());
@@ -146,7 +146,7 @@ TEST(WindowDesk, KeepsPoseAndEyeOfThePressAndFadesInBesideTheProp) {
     EXPECT_LE(clear, 0.06);
 }
 
-TEST(WindowDesk, ShowsAsManyAsMayBeAndTheOldestGoes) {
+TEST(WindowDesk, ReplacesTheOldestWindowAtTheLimit) {
     Desk desk(3);
     desk.run(milliseconds(100));
     for (int k = 0; k < 40; ++k) {
@@ -183,7 +183,7 @@ TEST(WindowDesk, PutsAnotherStateOfTheSameArtifactBesideTheFirst) {
     EXPECT_LT(off.x, 0.14);
 }
 
-TEST(WindowDesk, APropPushesThemOnAndOverTheEdgeOfTheLitPart) {
+TEST(WindowDesk, PropPushesWindowsAlongAndOffTheTable) {
     Desk desk;
     desk.run(milliseconds(100));
     desk.run(seconds(1), true);
@@ -208,7 +208,7 @@ TEST(WindowDesk, APropPushesThemOnAndOverTheEdgeOfTheLitPart) {
     EXPECT_TRUE(desk.windows().empty()) << "it was put away";
 }
 
-TEST(WindowDesk, AWindowThatIsPushedPushesTheNext) {
+TEST(WindowDesk, PushedWindowPushesTheNext) {
     Desk desk;
     desk.prop_m = {-0.3, 0.0};
     desk.run(milliseconds(100));
@@ -226,7 +226,7 @@ TEST(WindowDesk, AWindowThatIsPushedPushesTheNext) {
     }
 }
 
-TEST(WindowDesk, OneThatThePropIsPutDownOnIsDarkAndComesAgainElsewhere) {
+TEST(WindowDesk, WindowUnderThePropMovesElsewhere) {
     Desk desk;
     desk.run(milliseconds(100));
     desk.run(seconds(1), true);
@@ -247,7 +247,7 @@ TEST(WindowDesk, OneThatThePropIsPutDownOnIsDarkAndComesAgainElsewhere) {
     EXPECT_GT(glm::distance(desk.lit()[0].rectangle.centre_m, at), 0.1);
 }
 
-TEST(WindowDesk, ACaptionThatComesNearMakesOneDarkAndItGoesElsewhere) {
+TEST(WindowDesk, WindowMovesAwayFromANewCaption) {
     Desk desk;
     desk.run(milliseconds(100));
     desk.run(seconds(1), true);
@@ -260,7 +260,7 @@ TEST(WindowDesk, ACaptionThatComesNearMakesOneDarkAndItGoesElsewhere) {
               WindowDesk::beside_m);
 }
 
-TEST(WindowDesk, TurnsToTheReadersSideThroughDarkness) {
+TEST(WindowDesk, TurnsToTheReadersSideInTheDark) {
     Desk desk;
     desk.run(milliseconds(100));
     desk.run(seconds(1), true);
@@ -279,7 +279,7 @@ TEST(WindowDesk, TurnsToTheReadersSideThroughDarkness) {
     EXPECT_EQ(desk.windows()[0].rectangle.quarter_turns, 1);
 }
 
-TEST(WindowDesk, WithoutSpaceTheOldestGoesAndThenNothingIsPinned) {
+TEST(WindowDesk, ReplacesTheOldestWithoutRoomAndThenPinsNothing) {
     Desk desk;
     desk.run(milliseconds(100));
     desk.run(seconds(1), true);
@@ -306,7 +306,7 @@ TEST(WindowDesk, WithoutSpaceTheOldestGoesAndThenNothingIsPinned) {
     EXPECT_TRUE(desk.desk.can_pin());
 }
 
-TEST(WindowDesk, AllGoSoftlyWhenNobodyIsThere) {
+TEST(WindowDesk, FadesAllWindowsOutWithoutAVisitor) {
     Desk desk;
     desk.run(milliseconds(100));
     desk.run(seconds(1), true);
@@ -325,7 +325,7 @@ TEST(WindowDesk, AllGoSoftlyWhenNobodyIsThere) {
     EXPECT_TRUE(desk.windows().empty());
 }
 
-TEST(WindowDesk, AnArtifactThatLeavesMemoryTakesItsWindowsWithIt) {
+TEST(WindowDesk, RemovesWindowsOfADroppedArtifact) {
     Desk desk;
     desk.run(milliseconds(100));
     desk.run(seconds(1), true);
@@ -351,7 +351,7 @@ TEST(WindowDesk, AllocatesNothing) {
 }
 
 /// The windows that a place of the table shows, whatever is pressed with a prop at rest.
-TEST(WindowDesk, NoPlaceFlashesWhateverIsPressed) {
+TEST(WindowDesk, FlashesAtMostTwicePerSecond) {
     int most = 0;
     for (unsigned seed = 0; seed < 24; ++seed) {
         bench::Seeded random(seed);

@@ -43,7 +43,7 @@ TEST(ZoneFrame, NeverJumps) {
     }
 }
 
-TEST(ZoneFrame, HoldsThePropsBottomAndStaysOnTheTable) {
+TEST(ZoneFrame, EnclosesThePropsBaseWithinTheTable) {
     for (const double half : {0.03, 0.15, 0.4}) {
         const ZoneFrame frame(axis, half, table);
         glm::dvec2 low(1e9);
@@ -61,7 +61,7 @@ TEST(ZoneFrame, HoldsThePropsBottomAndStaysOnTheTable) {
     }
 }
 
-TEST(ZoneFrame, NoZoneNoFrame) {
+TEST(ZoneFrame, IsAbsentWithoutAZone) {
     EXPECT_EQ(ZoneFrame().share(at(1.0, 1.0)), 0.0);
     EXPECT_EQ(ZoneFrame({}, half_bottom, table).share(at(1.0, 1.0)), 0.0);
 }

@@ -72,7 +72,7 @@ class Remembered(MadeUpRepository):
             (self.root / f"{name}.txt").write_text(name, encoding="utf-8")
             self.add_script(name, f"cat {name}.txt")
 
-    def test_only_what_reads_the_changed_file_runs_again(self):
+    def test_reruns_only_tests_that_read_a_changed_file(self):
         self.assertEqual(self.new_runs(["one", "two"]), [1 + TIMES, 1 + TIMES])  # one under strace
         self.assertEqual(self.new_runs(["one", "two"]), [0, 0])
         (self.root / "one.txt").write_text("other", encoding="utf-8")
@@ -118,27 +118,27 @@ class Remembered(MadeUpRepository):
 
 
 class Failures(MadeUpRepository):
-    def test_a_test_that_failed_begins_anew(self):
+    def test_counts_a_failed_test_from_zero(self):
         self.add_script("flaky", f"[ $(wc -l <{self.counted}/flaky) -ne 3 ] || {{ echo the third; exit 1; }}")
         self.assertEqual(self.hunt().failed, ["flaky"])
         self.assertEqual(self.runs("flaky"), 3)
         self.assertIn("the third", (self.root / "out" / "flakes" / "flaky.log").read_text(encoding="utf-8"))
         self.assertEqual(self.new_runs(["flaky"]), [TIMES])
 
-    def test_what_strace_cannot_run_is_remembered_by_commit(self):
+    def test_remembers_untraceable_tests_by_commit(self):
         self.add_script("traces", "strace -o /dev/null true")
         self.assertEqual(self.hunt().untraced, ["traces"])
         self.assertEqual(self.new_runs(["traces"]), [0])
         self.assertEqual(self.new_runs(["traces"], commit="second"), [1 + TIMES])
 
-    def test_with_a_sanitizer_it_has_its_environment_and_is_remembered_by_commit(self):
+    def test_remembers_sanitized_tests_by_commit(self):
         self.add_script("sanitized", 'test "$OPTIONS" = halt && test -z "$FRUSTUMSCREEN_UNDER"')
         self.assertEqual(self.hunt(sanitizer={"OPTIONS": "other"}).failed, ["sanitized"])
         self.assertEqual(self.new_runs(["sanitized"], sanitizer={"OPTIONS": "halt"}), [TIMES])
         self.assertEqual(self.new_runs(["sanitized"], sanitizer={"OPTIONS": "halt"}), [0])
         self.assertEqual(self.new_runs(["sanitized"], sanitizer={"OPTIONS": "halt"}, commit="second"), [TIMES])
 
-    def test_what_asks_git_is_remembered_by_commit(self):
+    def test_remembers_tests_that_use_git_by_commit(self):
         (self.root.parent / "git").mkdir()
         (self.root.parent / "git" / "index").touch()
         self.add_script("asks", "cat ../git/index")
@@ -148,7 +148,7 @@ class Failures(MadeUpRepository):
 
 
 class Order(MadeUpRepository):
-    def test_first_what_never_passed_and_of_it_first_what_has_threads(self):
+    def test_runs_new_and_threaded_tests_first(self):
         self.add_script("old", "cat data.txt", labels="threads")
         (self.root / "data.txt").touch()
         self.hunt()
@@ -164,7 +164,7 @@ class Traces(MadeUpRepository):
         trace = inputs.Trace([line.replace("ROOT", str(self.root)) for line in lines], self.places)
         return {self.places.name(path): way for path, way in trace.used.items()}, trace
 
-    def test_how_a_path_was_used(self):
+    def test_finds_how_paths_were_used(self):
         used, trace = self.used(
             '7 execve("ROOT/build/release/tests/a", ["a"], 0x7ffc /* 9 vars */) = 0',
             '7 openat(AT_FDCWD</>, "/etc/ld.so.cache", O_RDONLY|O_CLOEXEC) = 3</etc/ld.so.cache>',
@@ -181,18 +181,18 @@ class Traces(MadeUpRepository):
         self.assertIsNone(trace.timing)
         self.assertFalse(trace.asks_git)
 
-    def test_a_program_that_was_named_from_its_folder(self):
+    def test_resolves_a_program_relative_to_its_folder(self):
         used, trace = self.used('7 execve("/usr/bin/sh", ["sh"], 0x7ffc /* 9 vars */) = 0',
                                 '7 execve("./b", ["b"], 0x7ffc /* 9 vars */) = 0',
                                 '7 openat(AT_FDCWD<ROOT/bin>, "/etc/ld.so.cache", O_RDONLY) = 3</etc/ld.so.cache>')
         self.assertEqual(used, {"bin/b": inputs.RAN})
         self.assertEqual(trace.timing, "execve")
 
-    def test_names_in_other_letters(self):
+    def test_decodes_escaped_names(self):
         used, _ = self.used('7 openat(AT_FDCWD<ROOT>, "h\\303\\266he.txt", O_RDONLY) = 3<ROOT/h\\303\\266he.txt>')
         self.assertEqual(used, {"höhe.txt": inputs.READ})
 
-    def test_what_a_path_holds(self):
+    def test_detects_changed_contents(self):
         ways = {"folder": inputs.READ, "later": inputs.SEEN, "data": inputs.READ, "looked_at": inputs.SEEN}
         (self.root / "folder").mkdir()
         (self.root / "data").write_text("a", encoding="utf-8")
@@ -227,13 +227,13 @@ class Programs(MadeUpRepository):
         self.compile("program", "int main(int count, char**) { return count - 1; }\n")
         self.assertNotEqual(inputs.digest(program, inputs.RAN), before)
 
-    def test_what_only_computes(self):
+    def test_recognizes_programs_that_only_compute(self):
         self.assertTrue(self.only_computes("sum", "int main(int count, char**) { return count - 1; }\n"))
         self.assertTrue(self.only_computes("googletest", "#include <chrono>\nnamespace testing { __attribute__((noinline)) long now() { "
                                            "return std::chrono::steady_clock::now().time_since_epoch().count(); } }\n"
                                            "int main() { return testing::now() == 0; }\n"))
 
-    def test_what_does_more(self):
+    def test_recognizes_programs_that_do_more(self):
         for name, text in {"clock": "#include <chrono>\nint main() { return std::chrono::steady_clock::now().time_since_epoch().count() == 0; }\n",
                            "seconds": "#include <ctime>\nint main() { return time(nullptr) == 0; }\n",
                            "cycles": "int main() { return __builtin_ia32_rdtsc() == 0; }\n",
@@ -244,7 +244,7 @@ class Programs(MadeUpRepository):
             with self.subTest(name):
                 self.assertFalse(self.only_computes(name, text))
 
-    def test_it_runs_once_and_is_left_out_until_it_changes(self):
+    def test_skips_a_computing_test_until_it_changes(self):
         self.only_computes("sum", "int main(int count, char**) { return count - 1; }\n")
         again = self.hunt()
         self.assertEqual((again.only_compute, again.failed), (["sum"], []))
@@ -291,17 +291,17 @@ class Whole(unittest.TestCase):
         self.assertEqual(self.repeat(), (0, 0, 0, []))
         self.assertEqual(self.repeat(boots=4), (1, 1, 0, []))
 
-    def test_a_page_costs_continuous_integration_alone(self):
+    def test_a_changed_page_reruns_only_continuous_integration(self):
         self.repeat()
         self.write("docs/page.md", "two\n")
         self.assertEqual(self.repeat(times=1), (0, 0, 1, []))
 
-    def test_the_product_costs_all(self):
+    def test_a_changed_product_reruns_everything(self):
         self.repeat()
         (self.root / "app/program.cpp").write_text("two\n", encoding="utf-8")  # not in the index
         self.assertEqual(self.repeat(), (1, 1, 2, []))
 
-    def test_what_failed_runs_again(self):
+    def test_reruns_failures(self):
         self.write("test", f'#!/bin/sh\necho "$1" >>{self.counted}\n[ "$1" = hil ]\n')
         self.assertEqual(self.repeat(), (1, 1, 2, ["image"]))
         self.assertEqual(self.repeat(), (0, 1, 0, ["image"]))

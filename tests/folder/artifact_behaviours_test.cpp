@@ -21,7 +21,7 @@ std::string refusal_of(const std::string& lines) {
     return file ? std::string() : test::told(file.error());
 }
 
-TEST(ArtifactBehaviours, have_all_that_is_written) {
+TEST(ArtifactBehaviours, parse_every_key) {
     const Result<ArtifactFile> file = parse_artifact_file(std::string(head) + R"(
 [[behaviours]]
 name = "open"
@@ -73,7 +73,7 @@ trigger = "dwell"
     EXPECT_EQ(file->behaviours[3].light->seconds, 3.0);
 }
 
-TEST(ArtifactBehaviours, mistakes_are_told_with_line_and_remedy) {
+TEST(ArtifactBehaviours, report_mistakes_with_line_and_remedy) {
     const std::string spring = "spring = { axis = [0, 0, 1], reach_deg = 5 }\n";
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"animation = \"a\"", ":5: behaviours[0].name is missing or empty"},

@@ -54,7 +54,7 @@ std::string refusal(const std::string& text) {
 
 } // namespace
 
-TEST(ArtifactFile, has_all_that_is_written) {
+TEST(ArtifactFile, parses_every_key) {
     const Result<ArtifactFile> read = parse_artifact_file(whole, "vase/artifact.toml");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->scan, "vase/vase.glb");
@@ -81,7 +81,7 @@ TEST(ArtifactFile, has_all_that_is_written) {
     EXPECT_EQ(read->hotspots[0].place, "vase/artifact.toml:30: hotspots[0].point");
 }
 
-TEST(ArtifactFile, needs_a_scan_and_nothing_else) {
+TEST(ArtifactFile, requires_only_a_scan) {
     const Result<ArtifactFile> read = parse_artifact_file("scan = 'a.stl'", "artifact.toml");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->scan, "a.stl");
@@ -92,12 +92,12 @@ TEST(ArtifactFile, needs_a_scan_and_nothing_else) {
     EXPECT_TRUE(test::tells(refusal("unlit = true"), {"vase/artifact.toml: scan ", "[folder.no_scan]"}));
 }
 
-TEST(ArtifactFile, a_misspelt_scan_is_told_before_a_missing_one) {
+TEST(ArtifactFile, suggests_the_key_scan_for_a_misspelt_one) {
     EXPECT_TRUE(test::tells(refusal("\nscna = \"a.stl\"\n"),
                             {"vase/artifact.toml:2: scna ", "key is scan ", "[settings.unknown_key]"}));
 }
 
-TEST(ArtifactFile, a_text_of_blanks_is_left_out) {
+TEST(ArtifactFile, trims_blanks_from_texts) {
     const Result<ArtifactFile> read =
         parse_artifact_file("scan = 'a.stl'\n[[texts]]\nlanguage = 'en'\ntitle = '  '\n"
                             "text = \"\"\"\n\n A jug. \u3000\n\"\"\"\n"
@@ -109,7 +109,7 @@ TEST(ArtifactFile, a_text_of_blanks_is_left_out) {
     EXPECT_EQ(read->texts[0].description, "");
 }
 
-TEST(ArtifactFile, languages_are_the_same_in_any_capital_letters) {
+TEST(ArtifactFile, matches_languages_in_any_case) {
     const Result<ArtifactFile> read =
         parse_artifact_file("scan = 'a.stl'\n[[texts]]\nlanguage = 'EN'\n[[texts]]\nlanguage = 'zh-HANT-tw'\n"
                             "description = 'x'\nrecording = 'a.wav'\n"
@@ -122,7 +122,7 @@ TEST(ArtifactFile, languages_are_the_same_in_any_capital_letters) {
     EXPECT_EQ(read->hotspots[0].labels, (std::vector<pack::PackLabel>{{"zh-Hant-TW", "y"}, {"en", "x"}}));
 }
 
-TEST(ArtifactFile, a_site_may_be_an_empty_table) {
+TEST(ArtifactFile, accepts_an_empty_table_of_a_site) {
     EXPECT_FALSE(parse_artifact_file("scan = 'a.stl'", "artifact.toml")->site);
     EXPECT_EQ(parse_artifact_file("scan = 'a.stl'\n[site]", "artifact.toml")->site->max_triangles, 150'000);
     EXPECT_EQ(parse_artifact_file("scan = 'a.stl'\n[site]\nmax_triangles = 2000", "artifact.toml")
@@ -130,7 +130,7 @@ TEST(ArtifactFile, a_site_may_be_an_empty_table) {
               2000);
 }
 
-TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
+TEST(ArtifactFile, reports_mistakes_with_line_and_remedy) {
     const std::string scan = "scan = \"a.stl\"\n";
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"license = \"CC0\"", ":2: license is not a known key; the nearest allowed key is licence"},
@@ -222,7 +222,7 @@ TEST(ArtifactFile, mistakes_are_told_with_line_and_remedy) {
     EXPECT_NE(refusal(scan + four).find("at most 3 tables"), std::string::npos) << refusal(scan + four);
 }
 
-TEST(ArtifactFile, sentences_may_have_many_dots_and_keys_may_not) {
+TEST(ArtifactFile, limits_dots_in_keys_but_not_in_texts) {
     std::string sentences;
     for (int k = 0; k < 900; ++k) {
         sentences += "... A \\\" and a # and \u2026 more ...... dots.\n";
@@ -238,7 +238,7 @@ TEST(ArtifactFile, sentences_may_have_many_dots_and_keys_may_not) {
     EXPECT_NE(refusal("[x]\nb = \"it's\"\n" + deep + " = 'it\"s'").find("6000 dots"), std::string::npos);
 }
 
-TEST(ArtifactFile, of_a_folder_without_one_tells_how_to_start) {
+TEST(ArtifactFile, names_the_command_that_creates_a_missing_file) {
     const Result<ArtifactFile> none = read_artifact_file("/nowhere/vase");
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().message,

@@ -15,7 +15,7 @@ Result<ArtifactFile> with_states(const std::string& lines) {
     return parse_artifact_file("scan = \"chest.glb\"\n" + lines, "chest/artifact.toml");
 }
 
-TEST(ArtifactStates, have_all_that_is_written) {
+TEST(ArtifactStates, parse_every_key) {
     const Result<ArtifactFile> file = with_states(R"(
 [[states]]
 name = "found"
@@ -45,7 +45,7 @@ titles = { en = "Today" }
     EXPECT_TRUE(file->states[2].behaviour.empty());
 }
 
-TEST(ArtifactStates, with_a_mistake_are_told) {
+TEST(ArtifactStates, report_mistakes) {
     const std::string good = "name = \"a\"\ntitles = { en = \"A\" }\n";
     ASSERT_TRUE(with_states("[[states]]\n" + good));
     for (const auto& [lines, words] : std::vector<std::pair<std::string, std::vector<std::string>>>{

@@ -26,7 +26,7 @@ std::string refusal_of(const std::string& lines) {
     return file ? std::string() : test::told(file.error());
 }
 
-TEST(ArtifactTorches, have_all_that_is_written) {
+TEST(ArtifactTorches, parse_every_key) {
     const Result<ArtifactFile> file = parse(R"(
 [[torch]]
 name = "x-ray"
@@ -87,7 +87,7 @@ pulse_depth = 0.5
     EXPECT_EQ(std::pair(ring.pulse_hz, ring.pulse_depth), std::pair(1.0, 0.5));
 }
 
-TEST(ArtifactTorches, with_a_mistake_are_told) {
+TEST(ArtifactTorches, report_mistakes) {
     ASSERT_EQ(refusal_of("name = \"a\"\neffect = \"grid\"\n"), "");
     for (const auto& [lines, words] : std::vector<std::pair<std::string, std::vector<std::string>>>{
              {"effect = \"grid\"\n", {"[torch_file.no_name]"}},

@@ -47,7 +47,7 @@ std::string with_every_hint(std::string text) {
 
 } // namespace
 
-TEST_F(NewFolder, holds_the_scan_its_files_and_a_file_that_is_read) {
+TEST_F(NewFolder, contains_the_scan_its_files_and_a_valid_artifact_file) {
     const Result<fs::path> file = start_folder(folder / "out/vase", scan);
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_EQ(*file, folder / "out/vase/artifact.toml");
@@ -64,7 +64,7 @@ TEST_F(NewFolder, holds_the_scan_its_files_and_a_file_that_is_read) {
     EXPECT_NE(text("out/vase/artifact.toml").find("reaches from [-1, 0, 2] to [1, 5, 4]"), std::string::npos);
 }
 
-TEST_F(NewFolder, every_hint_can_be_taken) {
+TEST_F(NewFolder, has_only_valid_hints) {
     const std::string text = with_every_hint(new_artifact_text(scan, "A \"small\" vase", "vase-1"));
     const Result<ArtifactFile> read = parse_artifact_file(text, "artifact.toml");
     ASSERT_TRUE(read) << read.error().message << "\n" << text;
@@ -81,7 +81,7 @@ TEST_F(NewFolder, every_hint_can_be_taken) {
     EXPECT_EQ(read->prop, "frustum");
 }
 
-TEST_F(NewFolder, says_what_the_scans_file_says_of_itself) {
+TEST_F(NewFolder, copies_the_metadata_of_the_scan) {
     scan.title = "Egyptian \"Cat\"";
     scan.author = "Ann (https://example.org/ann)";
     scan.licence = "CC-BY-4.0";
@@ -100,7 +100,7 @@ TEST_F(NewFolder, says_what_the_scans_file_says_of_itself) {
     EXPECT_EQ(silent->licence + silent->author + silent->source, "") << "examples are no statements";
 }
 
-TEST_F(NewFolder, leaves_no_cut_file_where_it_cannot_be_written) {
+TEST_F(NewFolder, leaves_no_truncated_file_after_a_failed_write) {
     put("in/pictures/skin.png", std::string(100'000, 'x'));
     struct rlimit before {};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -118,7 +118,7 @@ TEST_F(NewFolder, leaves_no_cut_file_where_it_cannot_be_written) {
     EXPECT_TRUE(start_folder(folder / "out", scan)) << "the next try finds nothing in its way";
 }
 
-TEST_F(NewFolder, replaces_nothing) {
+TEST_F(NewFolder, replaces_no_files) {
     ASSERT_TRUE(start_folder(folder / "in", scan)) << "a scan that lies there stays";
     const std::string before = text("in/artifact.toml");
     const Result<fs::path> again = start_folder(folder / "in", scan);
@@ -133,7 +133,7 @@ TEST_F(NewFolder, replaces_nothing) {
     EXPECT_FALSE(fs::exists(folder / "other/scan.obj"));
 }
 
-TEST_F(NewFolder, a_scan_whose_files_lie_elsewhere_is_refused) {
+TEST_F(NewFolder, rejects_side_files_outside_the_folder_of_the_scan) {
     put("skin.png", "a picture");
     scan.side_files.push_back(folder / "in/../skin.png");
     const Result<fs::path> file = start_folder(folder / "out", scan);
@@ -142,7 +142,7 @@ TEST_F(NewFolder, a_scan_whose_files_lie_elsewhere_is_refused) {
     EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_F(NewFolder, no_two_artifacts_get_one_id) {
+TEST_F(NewFolder, gives_each_artifact_a_unique_id) {
     ASSERT_TRUE(start_folder(folder / "a", scan));
     ASSERT_TRUE(start_folder(folder / "b", scan));
     EXPECT_NE(read_artifact_file(folder / "a")->id, read_artifact_file(folder / "b")->id);

@@ -12,7 +12,7 @@ namespace {
 
 class UnusedFiles : public WithTemporaryFolder {};
 
-TEST_F(UnusedFiles, OnlyThoseThatNothingNamesAreNamed) {
+TEST_F(UnusedFiles, ListsOnlyFilesThatAreNotUsed) {
     for (const char* name :
          {"artifact.toml", "vase.obj", "Vase.mtl", "skin.png", "old.png", "talk.wav", "notes.txt"}) {
         put(name, "x");
@@ -25,7 +25,7 @@ TEST_F(UnusedFiles, OnlyThoseThatNothingNamesAreNamed) {
     EXPECT_TRUE(unused_files(folder / "nowhere", used).empty());
 }
 
-TEST_F(UnusedFiles, HiddenFilesAndWhatABakeWritesAreIgnored) {
+TEST_F(UnusedFiles, IgnoresHiddenFilesAndOutputOfABake) {
     for (const char* name :
          {"artifact.toml", ".DS_Store", "._vase.obj", "Thumbs.db", "desktop.ini", "vase.fspack",
           "vase.fspack.minisig", "vase.preview.html", "vase.fspack.part123"}) {

@@ -354,7 +354,7 @@ TEST(CollineationBehind, CutsAtTheFaceAndReachesToInfinity) {
     EXPECT_GT(behind, 2000);
 }
 
-TEST(CollineationBehind, IsNoneForAnEyeThatDoesNotLookOntoTheFace) {
+TEST(CollineationBehind, GivesNothingForAnEyeNotInFrontOfTheFace) {
     Random random(37);
     for (int k = 0; k < 100; ++k) {
         Case c = random_case(random, 1.0, 1.0);

@@ -53,7 +53,7 @@ TEST(ConvexHull, FewCornersAreExact) {
     EXPECT_LE(most, 1e-12);
 }
 
-TEST(ConvexHull, ManyCornersAreHeldByFewer) {
+TEST(ConvexHull, ManyPointsAreEnclosedByFewerCorners) {
     Random random(8);
     for (const double thickness : {1.0, 0.3, 0.02}) {
         std::vector<glm::dvec3> points;
@@ -71,7 +71,7 @@ TEST(ConvexHull, ManyCornersAreHeldByFewer) {
     }
 }
 
-TEST(ConvexHull, SheetsLinesAndPoints) {
+TEST(ConvexHull, EnclosesSheetsLinesAndPoints) {
     Random random(9);
     const glm::dvec3 normal = direction(random);
     const glm::dvec3 across = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.2, 0.9)));

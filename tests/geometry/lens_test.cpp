@@ -16,7 +16,7 @@ glm::dvec2 by_the_manual(const Lens& lens, const glm::dvec2& x) {
     return {static_cast<double>(x.x * factor), static_cast<double>(x.y * factor)};
 }
 
-TEST(Lens, BendsAsTheManualSays) {
+TEST(Lens, MatchesTheFormulaOfTheOpenCvManual) {
     Random random(21);
     int distorted = 0;
     for (int k = 0; k < 2000; ++k) {
@@ -30,7 +30,7 @@ TEST(Lens, BendsAsTheManualSays) {
     EXPECT_GT(distorted, 1500);
 }
 
-TEST(Lens, WhatIsBentComesBack) {
+TEST(Lens, UndistortInvertsDistort) {
     Random random(22);
     int came = 0;
     for (int k = 0; k < 5000; ++k) {
@@ -51,7 +51,7 @@ TEST(Lens, WhatIsBentComesBack) {
     EXPECT_GT(came, 4000);
 }
 
-TEST(Lens, ThereIsNothingBeyondTheFold) {
+TEST(Lens, RejectsPointsBeyondTheFold) {
     // r (1 - 0.1 r^2) increases up to r^2 = 10/3, where its value is 2/3 of sqrt(10/3).
     const Lens lens{-0.1, 0.0};
     EXPECT_NEAR(lens.fold_r2(), 10.0 / 3.0, 1e-14);
@@ -102,7 +102,7 @@ TEST(Lens, TheAreaFactorIsTheDeterminantOfDifferences) {
     }
 }
 
-TEST(Lens, APixelsRayComesBackToThePixel) {
+TEST(Lens, PixelToRayRoundTrip) {
     Random random(23);
     for (int k = 0; k < 2000; ++k) {
         const Pinhole pinhole{1920,
@@ -120,7 +120,7 @@ TEST(Lens, APixelsRayComesBackToThePixel) {
     }
 }
 
-TEST(Lens, WithoutDistortionItIsThePinholesOwn) {
+TEST(Lens, EqualsThePinholeWithoutDistortion) {
     Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0, {1e-300, 0.0}};
     const glm::dvec3 point(0.2, -0.1, 1.3);
     EXPECT_EQ(*pinhole.pixel(point), *pinhole.ideal().pixel({point.x / point.z, point.y / point.z, 1.0}));

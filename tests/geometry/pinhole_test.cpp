@@ -29,14 +29,14 @@ TEST(Pinhole, ProjectsAsTheConventionSays) {
     }
 }
 
-TEST(Pinhole, APointBehindOrBesideTheLensHasNoPixel) {
+TEST(Pinhole, APointAtOrBehindTheLensHasNoPixel) {
     const Pinhole p{1280, 800, 1920, 1920, 640, 400};
     EXPECT_FALSE(p.pixel({0, 0, 0}));
     EXPECT_FALSE(p.pixel({0.1, 0, -1}));
     EXPECT_FALSE(p.pixel({0, 0, std::nan("")}));
 }
 
-TEST(Pinhole, APixelsRayComesBackToThePixel) {
+TEST(Pinhole, PixelToRayRoundTrip) {
     Random random(12);
     for (int k = 0; k < 2000; ++k) {
         const Pinhole p = random_pinhole(random);

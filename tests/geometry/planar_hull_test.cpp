@@ -35,7 +35,7 @@ std::size_t edges_by_definition(const std::vector<glm::dvec2>& points) {
     return edges;
 }
 
-TEST(PlanarHull, PointsOnAGridGiveTheEdgesOfTheDefinition) {
+TEST(PlanarHull, MatchesTheDefinitionForPointsOnAGrid) {
     Random random(49);
     for (int trial = 0; trial < 300; ++trial) {
         std::vector<glm::dvec2> points;

@@ -129,7 +129,7 @@ Walked walk(const FrustumSize& size, const glm::dvec3& origin, const glm::dvec3&
     return {};
 }
 
-TEST(PropShape, RaysEnterWhereAWalkAlongThemEnters) {
+TEST(PropShape, RaysEnterAtThePointFoundByStepping) {
     Random random(23);
     int hits = 0;
     for (int k = 0; k < 3000; ++k) {
@@ -205,7 +205,7 @@ TEST(PropShape, TheLargestScaleOfNothingOrOfOnePointOnTheBottomIsInfinite) {
     EXPECT_EQ(largest_scale_inside(prop, origin), std::numeric_limits<double>::infinity());
 }
 
-TEST(PropShape, AFacesMiddleLiesOnTheFaceAsFarFromEachOfItsUpperCorners) {
+TEST(PropShape, AFacesMiddleIsEquidistantFromItsUpperCorners) {
     const PropShape prop = make_frustum({0.16, 0.09, 0.12});
     EXPECT_NEAR(glm::distance(prop.faces[4].middle(), glm::dvec3(0.0, 0.0, 0.12)), 0.0, 1e-15) << "the top's";
     for (const PropFace& face : prop.faces) {
@@ -217,7 +217,7 @@ TEST(PropShape, AFacesMiddleLiesOnTheFaceAsFarFromEachOfItsUpperCorners) {
     EXPECT_NEAR(prop.faces[0].middle().x, 0.25 * (0.16 + 0.09), 1e-15) << "between bottom and top";
 }
 
-TEST(PropShape, APointInAFaceIsThatOfItsDiagonalOrTheMeanOfItsCorners) {
+TEST(PropShape, InnerPointIsOnTheDiagonalOrTheMeanOfTheCorners) {
     for (const PropShape& prop : {make_frustum({0.16, 0.09, 0.12}), make_cube(0.1)}) {
         for (const PropFace& face : prop.faces) {
             EXPECT_EQ(inner_point(face), 0.5 * (face.corners[0] + face.corners[2])) << face.name;
@@ -239,7 +239,7 @@ PropShape prism(int sides) {
     return prop;
 }
 
-TEST(PropShape, ItsFootIsWhatStandsOnTheTable) {
+TEST(PropShape, FootConsistsOfTheCornersOnTheTable) {
     const PropShape frustum = make_frustum({0.16, 0.09, 0.12});
     EXPECT_EQ(foot_of(frustum), (std::vector<glm::dvec3>{
                                     {-0.08, -0.08, 0}, {0.08, -0.08, 0}, {0.08, 0.08, 0}, {-0.08, 0.08, 0}}));
@@ -256,7 +256,7 @@ TEST(PropShape, ItsFootIsWhatStandsOnTheTable) {
     EXPECT_EQ(foot_of(tip), std::vector<glm::dvec3>{glm::dvec3(0.0)});
 }
 
-TEST(PropShape, LooksTheSameAfterTheQuarterTurnsOfItsSymmetry) {
+TEST(PropShape, QuarterTurnsMatchTheSymmetry) {
     EXPECT_EQ(quarters_to_same(make_frustum({})), 1);
     EXPECT_EQ(quarters_to_same(make_cube(0.1)), 1);
     EXPECT_EQ(quarters_to_same(prism(4)), 1);
@@ -265,7 +265,7 @@ TEST(PropShape, LooksTheSameAfterTheQuarterTurnsOfItsSymmetry) {
     EXPECT_EQ(quarters_to_same(prism(8)), 1);
 }
 
-TEST(CornerFan, IsThePolygonWithoutGapsAndOverlaps) {
+TEST(CornerFan, CoversThePolygonWithoutGapsAndOverlaps) {
     for (std::size_t corners = 3; corners <= max_face_corners; ++corners) {
         const auto at = [&](std::size_t k) {
             const double azimuth =
@@ -291,7 +291,7 @@ TEST(CornerFan, IsThePolygonWithoutGapsAndOverlaps) {
     EXPECT_EQ(fan_quad(4, 0), (std::array<std::size_t, 4>{0, 1, 2, 3}));
 }
 
-TEST(UnionFind, JoinsWhatIsConnected) {
+TEST(UnionFind, JoinsConnectedElements) {
     std::mt19937 random(5);
     for (int graph = 0; graph < 50; ++graph) {
         constexpr std::uint32_t count = 40;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(FollowShare, IsTheExactSolutionAndOneStepIsAsGoodAsMany) {
+TEST(FollowShare, IsExactForOneStepAndForMany) {
     EXPECT_NEAR(follow_share(0.2, 0.2), 1.0 - std::exp(-1.0), 1e-15);
     double left = 1.0;
     for (int k = 0; k < 1000; ++k) {
@@ -23,7 +23,7 @@ TEST(FollowShare, KeepsItsDigitsForTheShortestSteps) {
     EXPECT_NEAR(follow_share(1e-9, 1e3) / 1e-12, 1.0, 1e-12);
 }
 
-TEST(FollowShare, OfTimeThatStandsStillGoesBackOrIsNoneIsZero) {
+TEST(FollowShare, IsZeroForInvalidOrNonPositiveTime) {
     EXPECT_EQ(follow_share(0.0, 1.0), 0.0);
     EXPECT_EQ(follow_share(-10.0, 1.0), 0.0);
     EXPECT_EQ(follow_share(nan, 1.0), 0.0);

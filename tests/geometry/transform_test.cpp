@@ -16,7 +16,7 @@ glm::dvec3 rotated_by_hand(const glm::dquat& q, const glm::dvec3& p) {
             2 * (x * z - w * y) * p.x + 2 * (y * z + w * x) * p.y + (1 - 2 * (x * x + y * y)) * p.z};
 }
 
-TEST(Transform, TurnsAndMovesAPointAsWrittenOutByHand) {
+TEST(Transform, MatchesIndependentArithmetic) {
     Random random(1);
     for (int k = 0; k < 2000; ++k) {
         const RigidTransform t{random.rotation(), random.vector(3.0)};
@@ -53,7 +53,7 @@ TEST(Transform, ALongChainOfProductsStaysRigid) {
     EXPECT_NEAR(glm::length(chain.rotation), 1.0, 1e-12);
 }
 
-TEST(Transform, AMatrixAndItsTransformAreTheSame) {
+TEST(Transform, MatrixRoundTrip) {
     Random random(4);
     for (int k = 0; k < 2000; ++k) {
         const RigidTransform t{random.rotation(), random.vector(10.0)};

@@ -121,7 +121,7 @@ TEST(TriangleTree, ASphereHasNoHoles) {
     }
 }
 
-TEST(TriangleTree, OfNothingAndOfTrianglesWithoutAreaMeetsNothing) {
+TEST(TriangleTree, EmptyTreeAndDegenerateTrianglesMeetNothing) {
     EXPECT_FALSE(TriangleTree().meets({0, 0, 1}, {0, 0, -1}));
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {nan, 0, 0}, {0, 1, 0}};

@@ -104,7 +104,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(EveryProp, SearchOf, ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup));
 
-TEST_P(SearchOf, TheEasiestSingleMoveOfAllIsFound) {
+TEST_P(SearchOf, FindsTheEasiestSingleMove) {
     int single = 0;
     const int situations = reader.setup().in_hand ? 25 : 60; // in the hand there are far more moves
     for (int k = 0; k < situations; ++k) {
@@ -124,7 +124,7 @@ TEST_P(SearchOf, TheEasiestSingleMoveOfAllIsFound) {
     EXPECT_GT(single, 4);
 }
 
-TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
+TEST_P(SearchOf, KeepsStandingAdviceUnlessClearlyBeaten) {
     int kept = 0;
     int single = 0;
     const int situations = reader.setup().in_hand ? 20 : 40;
@@ -149,7 +149,7 @@ TEST_P(SearchOf, WhatStandsCountsForItselfAndMustBeClearlyBeaten) {
     EXPECT_GE(10 * kept, 9 * single) << "of " << single;
 }
 
-TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
+TEST_P(SearchOf, FindsTheEasiestOfTheShortestSequences) {
     int several = 0;
     for (int k = 0; k < 4000 && several < 8; ++k) {
         const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
@@ -171,7 +171,7 @@ TEST_P(SearchOf, TheEasiestOfTheShortestSequencesIsFound) {
     EXPECT_GT(several, 3);
 }
 
-TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
+TEST_P(SearchOf, KeepsTheFirstMoveOfAStandingSequence) {
     int several = 0;
     for (int k = 0; k < 400 && several < 4; ++k) {
         const GuidedState tracked_state = bench::seeded_situation(reader.setup(), seeded);
@@ -188,7 +188,7 @@ TEST_P(SearchOf, AVisitorWhoHasASequenceKeepsItsBeginning) {
 }
 
 /// A projector that lights nothing: no move helps, and the visitor has to wait.
-TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
+TEST_P(SearchOf, AdvisesToWaitWhenNoSequenceHelps) {
     GuidanceSetup dark = GetParam()();
     dark.projector.width = 1; // its picture is empty
     dark.projector.height = 1;
@@ -204,7 +204,7 @@ TEST_P(SearchOf, WhereNoSequenceHelpsTheVisitorWaits) {
 }
 
 /// Advice of three or four moves: no sequence of two exists, even with the last move all over the table.
-TEST_P(SearchOf, NoLongerSequenceIsAdvisedWhereAShorterOneIs) {
+TEST_P(SearchOf, AdvisesNoLongerSequenceThanNeeded) {
     int longer = 0;
     const int situations =
         reader.setup().in_hand ? 400 : 60; // on the table two moves are enough nearly always
@@ -220,7 +220,7 @@ TEST_P(SearchOf, NoLongerSequenceIsAdvisedWhereAShorterOneIs) {
     EXPECT_TRUE(longer == 3 || !reader.setup().in_hand) << longer;
 }
 
-TEST_P(SearchOf, IsTheSameInTheSmallestPiecesAndAfterABeginningThatWasGivenUp) {
+TEST_P(SearchOf, IsTheSameInPiecesAndAfterAnAbandonedSearch) {
     AdviceSearch search;
     int sought = 0;
     for (int k = 0; k < 12; ++k) {
@@ -248,7 +248,7 @@ TEST_P(SearchOf, IsTheSameInTheSmallestPiecesAndAfterABeginningThatWasGivenUp) {
     EXPECT_GT(sought, 3);
 }
 
-TEST(AdviceSearch, BeforeItsBeginningItIsOverAndHasFoundNothing) {
+TEST(AdviceSearch, IsOverWithoutAResultBeforeItBegins) {
     AdviceSearch search;
     EXPECT_TRUE(search.advance(FaceReader(frustum_setup()), 1));
     EXPECT_FALSE(search.found());

@@ -38,7 +38,7 @@ TEST_P(AdviceOf, HelpsHoweverItIsFollowed) {
     EXPECT_GT(several, 20);
 }
 
-TEST_P(AdviceOf, IsTheSameInPieces) {
+TEST_P(AdviceOf, IsTheSameWhenSearchedInPieces) {
     const FaceReader reader(GetParam()());
     bench::Seeded seeded(17);
     std::optional<GivenAdvice> standing;

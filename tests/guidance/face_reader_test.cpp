@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(EveryProp, FacesOf,
                          ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup, &solid_cube_setup,
                                            &hexagon_setup, &tetrahedron_setup, &gem_setup));
 
-TEST_P(FacesOf, AreSeenAndLitByTheDefinition) {
+TEST_P(FacesOf, MatchTheDefinitionOfSeenAndLit) {
     const FaceReader reader(GetParam()());
     const GuidanceSetup& setup = reader.setup();
     bench::Seeded seeded(3);
@@ -100,7 +100,7 @@ double traced_px(const GuidanceSetup& setup, const GuidedState& tracked_state, s
     return static_cast<double>(count) * step * step;
 }
 
-TEST_P(FacesOf, HaveTheAreaThatARayCastCounts) {
+TEST_P(FacesOf, AreaMatchesARayCast) {
     GuidanceSetup setup = GetParam()();
     // The ray cast uses the planes; the wedge's planes were not moved with its corners.
     setup.prop.bounds.resize(setup.prop.faces.size());

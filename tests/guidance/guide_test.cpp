@@ -59,20 +59,20 @@ TEST_F(GuideTest, GoesFromPictureToTextToVoice) {
         "slide_left");
 }
 
-TEST_F(GuideTest, ForgetsWhatLastsAMoment) {
+TEST_F(GuideTest, IgnoresBriefProblems) {
     at(seconds(1), good);
     at(milliseconds(1300), right_of_the_beam);
     at(seconds(5), good);
     EXPECT_EQ(stages_, std::set<GuidanceStage>{GuidanceStage::Quiet});
 }
 
-TEST_F(GuideTest, IsQuietSoonWhenTheVisitorHasManaged) {
+TEST_F(GuideTest, IsQuietSoonAfterTheProblemIsSolved) {
     at(seconds(10), right_of_the_beam);
     EXPECT_EQ(at(milliseconds(10250), good).stage, GuidanceStage::Quiet);
 }
 
 /// A tracker's error neither lifts a prop nor presses it into the table.
-TEST_F(GuideTest, APropThatStandsIsNotToldToStand) {
+TEST_F(GuideTest, DoesNotAskToStandUpAStandingProp) {
     for (const double height_m : {-0.006, 0.0, 0.006}) {
         for (const double lean_rad : {0.0, 0.04}) {
             GuidedState tracked_state = right_of_the_beam;
@@ -86,7 +86,7 @@ TEST_F(GuideTest, APropThatStandsIsNotToldToStand) {
 }
 
 /// A prop at the border of the light, slightly more in the dark or in the light, with a tracker's noise.
-TEST_F(GuideTest, DoesNotBlinkAtTheBorderOfTheLight) {
+TEST_F(GuideTest, DoesNotFlickerAtTheBorderOfTheLight) {
     double lit_m = 0.0;
     double dark_m = 0.3;
     while (dark_m - lit_m > 1e-6) {
@@ -127,7 +127,7 @@ TEST_F(GuideTest, DoesNotSpeakOverSomethingElse) {
     EXPECT_EQ(stages_.count(GuidanceStage::Text), 1U); // but it is shown
 }
 
-TEST_F(GuideTest, WhoAsksGetsAllOfItAtOnceAndOnce) {
+TEST_F(GuideTest, SpeaksAtOnceAndOnlyOnceOnRequest) {
     at(seconds(1), good);
     guide_.ask();
     EXPECT_EQ(at(seconds(2), good).stage, GuidanceStage::Quiet) << "nothing is to be done";
@@ -144,7 +144,7 @@ TEST_F(GuideTest, WhoAsksGetsAllOfItAtOnceAndOnce) {
     EXPECT_FALSE(at(seconds(9), right_of_the_beam, Sensing::Good, false).speak) << "it is being said already";
 }
 
-TEST_F(GuideTest, WaitsWhileItIsFollowed) {
+TEST_F(GuideTest, DoesNotSpeakWhileTheAdviceIsFollowed) {
     // 2 cm a second towards the beam: slow, but the advice is followed.
     for (int k = 0; k < 8; ++k) {
         at(milliseconds(1000 * k), standing_at(0.40 - 0.02 * k, 0.0));
@@ -152,13 +152,13 @@ TEST_F(GuideTest, WaitsWhileItIsFollowed) {
     EXPECT_EQ(stages_.count(GuidanceStage::Voice), 0U);
 }
 
-TEST_F(GuideTest, SaysWhatIsMissing) {
+TEST_F(GuideTest, NamesALostPropOrHead) {
     EXPECT_EQ(words_key(at(seconds(3), good, Sensing::PropLost)), "uncover");
     EXPECT_EQ(words_key(at(seconds(6), good, Sensing::HeadLost)), "show_your_head");
     EXPECT_EQ(at(seconds(7), good).stage, GuidanceStage::Quiet);
 }
 
-TEST_F(GuideTest, SaysWhatTheTrackerLacksWhereThePictureIsWhole) {
+TEST_F(GuideTest, RanksTrackerProblemsAgainstDarkFaces) {
     EXPECT_EQ(words_key(at(seconds(3), good, Sensing::MetalNear)), "away_from_metal");
     EXPECT_EQ(words_key(at(seconds(6), right_of_the_beam, Sensing::MetalNear)), "slide_left");
     EXPECT_EQ(words_key(at(seconds(9), right_of_the_beam, Sensing::HeadLost)), "slide_left");
@@ -166,7 +166,7 @@ TEST_F(GuideTest, SaysWhatTheTrackerLacksWhereThePictureIsWhole) {
     EXPECT_EQ(words_key(at(seconds(15), right_of_the_beam, Sensing::PropLost)), "slide_back_to_light");
 }
 
-TEST_F(GuideTest, TellsTheNextVisitorAnew) {
+TEST_F(GuideTest, RestartsItsPausesForTheNextVisitor) {
     at(seconds(120), right_of_the_beam);
     const int before = spoken_;
     guide_.forget();
@@ -174,14 +174,14 @@ TEST_F(GuideTest, TellsTheNextVisitorAnew) {
     EXPECT_EQ(spoken_, before + 1); // without the long pause of the previous advice
 }
 
-TEST_F(GuideTest, StandsUpWhatShowsOnlyItsBottom) {
+TEST_F(GuideTest, AsksToStandUpAnUpsideDownProp) {
     GuidedState upside_down = good;
     upside_down.table_from_prop = {glm::angleAxis(3.1, glm::dvec3(1, 0, 0)), {0.0, 0.0, 0.155}};
     EXPECT_EQ(words_key(at(seconds(1), upside_down)), "stand_upright");
 }
 
 /// The visitor's own left and right, from every side of the table.
-TEST(AdviceWords, AreInTheVisitorsDirections) {
+TEST(AdviceWords, UseTheVisitorsDirections) {
     for (int side = 0; side < 4; ++side) {
         const glm::dquat turn = glm::angleAxis(0.5 * std::numbers::pi * side, glm::dvec3(0, 0, 1));
         Guidance guidance;

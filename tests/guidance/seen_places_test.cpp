@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(EveryProp, SeenIn,
                          ::testing::Values(&in_frustum, &in_cube, &beyond_frustum, &in_hexagon,
                                            &in_tetrahedron, &in_gem));
 
-TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
+TEST_P(SeenIn, WholeAndLostMatchARayCast) {
     Shown shown = GetParam()();
     shown.setup.hull = shown.artifact.corners;
     const FaceReader reader(shown.setup);
@@ -116,7 +116,7 @@ TEST_P(SeenIn, WholeAndLostAreWhatRaysSay) {
 }
 
 /// An eye on the axis over a square hole, with a cube below: small steps of the hole across the cube's silhouette.
-TEST(SeenPlaces, MeetExactlyWhereTheConesDo) {
+TEST(SeenPlaces, SeesThroughAHoleExactlyWithinTheSilhouette) {
     const std::array<glm::dvec3, 8> cube{{{-1, -1, -3},
                                           {1, -1, -3},
                                           {-1, 1, -3},

@@ -51,7 +51,7 @@ Restored follow(const std::string& name, const GuidanceSetup& setup, int situati
 /// An eye sees up to three sides of an upright hexagonal prism, which no lens above it lights at many places: there no
 /// listed move helps, and the visitor has to wait. In these situations at most one in 400 of all places, heights and
 /// turns, as the prism leans or upright, makes the picture whole, and in one of ten none does: a hand does not meet them.
-TEST(SolidAdvice, RestoresNearlyAllSituationsWithinItsStepsAndFewerOfAPrism) {
+TEST(SolidAdvice, RestoresNearlyAllSituationsWithinItsSteps) {
     constexpr int situations = 150;
     const Restored cube = follow("cube of the settings", cube_setup(), situations);
     EXPECT_GT(cube.share(), 0.98);

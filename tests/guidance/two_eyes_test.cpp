@@ -41,7 +41,7 @@ std::vector<glm::dvec3> artifact_in(const geometry::PropShape& prop) {
 class TwoEyesOf : public ::testing::TestWithParam<GuidanceSetup (*)()> {};
 INSTANTIATE_TEST_SUITE_P(EveryProp, TwoEyesOf, ::testing::Values(&frustum_setup, &cube_setup, &wedge_setup));
 
-TEST_P(TwoEyesOf, SeeWhatEitherSeesAndAreWholeIfEachIs) {
+TEST_P(TwoEyesOf, SeeTheUnionAndAreWholeIfBothAre) {
     const GuidanceSetup setup = GetParam()();
     FaceReader reader(setup);
     const std::vector<glm::dvec3> hull = artifact_in(setup.prop);
@@ -76,7 +76,7 @@ TEST_P(TwoEyesOf, SeeWhatEitherSeesAndAreWholeIfEachIs) {
 
 /// The advice mends both eyes: carried out well, a single move leaves each of them a whole picture; carried out as people do, less is
 /// dark.
-TEST_P(TwoEyesOf, AreMendedByOneMove) {
+TEST_P(TwoEyesOf, OneMoveRestoresBothEyes) {
     const FaceReader reader(GetParam()());
     bench::Seeded seeded(32);
     int single = 0;
@@ -104,7 +104,7 @@ TEST_P(TwoEyesOf, AreMendedByOneMove) {
 }
 
 /// A visitor who walks round the table turns with the way: both eyes go about the table's vertical by the same angle.
-TEST(TwoEyes, GoRoundTheTableTogether) {
+TEST(TwoEyes, MoveAroundTheTableTogether) {
     const GuidanceSetup setup = frustum_setup();
     GuidedState front;
     front.eye_m = {0.0, -0.6, 0.5};
@@ -119,7 +119,7 @@ TEST(TwoEyes, GoRoundTheTableTogether) {
     EXPECT_LT(glm::distance(right_there.eye_m, turned(right.eye_m)), 1e-15);
 }
 
-TEST(TwoEyes, ComeFromTheTrackedStateInStereoAlone) {
+TEST(TwoEyes, AreUsedOnlyInStereo) {
     settings::Settings settings;
     tracking::TrackedState state;
     state.eye_m = {0.1, -0.5, 0.4};

@@ -215,7 +215,7 @@ std::vector<std::string> toml_texts(const fs::path& file, const std::string& onl
 
 } // namespace
 
-TEST(Guide, LiteralsAreReadAsTheCompilerReadsThem) {
+TEST(Guide, ReadsStringLiteralsLikeTheCompiler) {
     EXPECT_EQ(string_literals(
                   "#include \"a b c\"\nf(\"one \" // \"not this\"\n  \"two\", \"three\"); /* \"nor this\" */"
                   "g('\"', \"fo\\\"ur\", 1'000, R\"(raw \" text)\", \"five\");"),
@@ -263,7 +263,7 @@ TEST(Guide, NamesEverySentenceOfThePrograms) {
 }
 
 /// A file whose sentences all have rows must not be in `exempt`, so that it is tested.
-TEST(Guide, LeavesOutNoFileInVain) {
+TEST(Guide, ExemptsNoFileWhoseSentencesAreAllNamed) {
     for (const ExemptSource& each : exempt) {
         const std::vector<std::string> sentences = sentences_of(each.file);
         EXPECT_FALSE(std::all_of(sentences.begin(), sentences.end(), is_named)) << each.file;

@@ -172,7 +172,7 @@ void with_each(const std::vector<Device>& which, const std::function<void(const 
     }
 }
 
-TEST(MockTracker, PosesArriveInOrderAndExact) {
+TEST(MockTracker, DeliversPosesExactlyAndInOrder) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
@@ -182,7 +182,7 @@ TEST(MockTracker, PosesArriveInOrderAndExact) {
     });
 }
 
-TEST(MockTracker, PosesAreInTheTrackersOwnFrame) {
+TEST(MockTracker, ReportsPosesInTheTrackersFrame) {
     with_each(devices, [](const Device& device) {
         // A third of a turn about (1, 1, 1): X to Y, Y to Z, Z to X.
         const glm::dmat4 table_from_tracker{{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {0.5, -0.25, 0.125, 1}};
@@ -193,7 +193,7 @@ TEST(MockTracker, PosesAreInTheTrackersOwnFrame) {
     });
 }
 
-TEST(MockTracker, FramesLostBrokenDoubledAndLateAreCountedAndNoneIsInvented) {
+TEST(MockTracker, CountsLostBrokenDoubledAndLateFrames) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
@@ -215,7 +215,7 @@ TEST(MockTracker, FramesLostBrokenDoubledAndLateAreCountedAndNoneIsInvented) {
     });
 }
 
-TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
+TEST(MockTracker, ReportsFaultsAndRecovers) {
     with_each(devices, [](const Device& device) {
         const bool says_that_it_boots =
             device.model == tracker::UsbTrackerModel::Viper || device.model == tracker::UsbTrackerModel::Hid;
@@ -245,7 +245,7 @@ TEST(MockTracker, WhatIsTheMatterIsSaidAndPasses) {
     });
 }
 
-TEST(MockTracker, ADeviceThatRefusesItsSetUpIsTriedUntilItTakesIt) {
+TEST(MockTracker, RetriesARejectedSetUp) {
     with_each(devices, [](const Device& device) {
         Bench bench(device, {"--at", "0s nak"});
         EXPECT_TRUE(bench.until_state(tracker::UsbTrackerState::SetUpRefused));
@@ -272,7 +272,7 @@ void with_each(const std::vector<Said>& which, const std::function<void(const Sa
     }
 }
 
-TEST(MockTracker, AViperWhoseSetUpIsNotAsItShouldBeStreamsAndSaysSo) {
+TEST(MockTracker, WarnsAboutAViperWithAnotherSetUp) {
     const Device& viper = devices[0];
     with_each({{viper, "filter-stays", tracker::UsbTrackerState::FilterStaysOn},
                {viper, "warn", tracker::UsbTrackerState::SetUpDoubtful},
@@ -288,7 +288,7 @@ TEST(MockTracker, AViperWhoseSetUpIsNotAsItShouldBeStreamsAndSaysSo) {
               });
 }
 
-TEST(MockTracker, AWrongPaceAClockThatStandsAndAFaultOfItsOwnAreSaidAndPass) {
+TEST(MockTracker, ReportsAWrongRateAStoppedClockAndAnInternalFault) {
     const Device& viper = devices[0];
     const Device& patriot = devices[1];
     const Device& hid = devices[3];
@@ -309,7 +309,7 @@ TEST(MockTracker, AWrongPaceAClockThatStandsAndAFaultOfItsOwnAreSaidAndPass) {
               });
 }
 
-TEST(MockTracker, StormsAreLivedThroughAndNoPoseIsInvented) {
+TEST(MockTracker, SurvivesStormsWithoutInventingPoses) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());
@@ -333,7 +333,7 @@ TEST(MockTracker, StormsAreLivedThroughAndNoPoseIsInvented) {
     });
 }
 
-TEST(MockTracker, PositionsThatAreNoNumbersAreNeverHandedOutAsPoses) {
+TEST(MockTracker, NeverReportsPositionsThatAreNotNumbers) {
     with_each(devices, [](const Device& device) {
         Bench bench(device);
         ASSERT_TRUE(bench.until_streaming());

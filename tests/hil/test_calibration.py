@@ -36,7 +36,7 @@ class Calibration(HilTest):
     after = f"rm -rf {FOLDER}/*"  # the table of the other tests equals their settings
     truth = TrueTable(WIDTH, 0.4)
 
-    def test_a_technician_alone_with_two_buttons(self):
+    def test_calibrates_with_two_buttons(self):
         self.assertGreater(self.farthest_off(PLACES[:1], UNCALIBRATED), 4 * PIXELS, "without it the picture is right: this proves nothing")
         self.begin()
         self.press(NEXT)
@@ -58,7 +58,7 @@ class Calibration(HilTest):
         self.assertLess(off_px, PIXELS)
 
     @long
-    def test_whatever_its_end_the_exhibit_comes_back(self):
+    def test_exhibit_returns_after_any_end(self):
         self.bench.machine.check(f"rm -rf {FOLDER}/*")  # with a calibration of another test, a touch-up would be offered first
         for end in (lambda: self.press(FIRST), lambda: self.bench.machine.check(f"systemctl kill -s KILL {CALIBRATION}")):
             self.begin()

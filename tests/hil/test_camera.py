@@ -91,7 +91,7 @@ class Camera(HilTest):
     def connected(self):
         eventually(self.is_there, 30.0, "the kernel has no /dev/video0")
 
-    def test_1_refused_until_the_settings_have_one(self):
+    def test_1_refused_without_settings(self):
         self.plug("")
         refused = ("cd /sys/bus/usb/devices; for d in *-*; do [ ! -e $d/idProduct ] || [ $(cat $d/idVendor):$(cat $d/idProduct) != "
                    "1d6b:0102 ] || cat $d/authorized; done")
@@ -142,7 +142,7 @@ class Camera(HilTest):
         self.assertLess(int(books["wchar"]), MAX_WRITTEN)
 
     @long
-    def test_3_faults_are_told(self):
+    def test_3_faults_are_reported(self):
         self.plug()
         self.connected()
         watching = Watching(self.bench)

@@ -84,7 +84,7 @@ class Tags(CameraUse):
     def at_first(cls):
         return tags_seen(cls.view, cls.tags, *cls.first)
 
-    def test_stand_in_for_a_lost_tracker_and_give_the_lead_back(self):
+    def test_replace_a_lost_tracker_until_it_returns(self):
         bench = self.bench
         pose = pose_of((self.second[0][0] + self.beside_m, *self.second[0][1:]), self.second[1])
         # Drawn first, before the machine needs the host's processors.
@@ -163,7 +163,7 @@ class Visitor(CameraUse):
     def at_first(cls):
         return room_seen(cls.view)
 
-    def test_the_picture_turns_to_whoever_comes(self):
+    def test_picture_turns_to_an_arriving_visitor(self):
         bench, pose = self.bench, (*CENTRE_M, *UPRIGHT)
         bench.tracker.tell("sensor-missing", 2)  # no one wears a sensor on the head
         self.show(ARTIFACT)
@@ -259,7 +259,7 @@ class Drift(CameraUse):
     def at_first(cls):
         return seen_on_wood(screen.Picture(WIDTH, HEIGHT, bytes(3 * WIDTH * HEIGHT)), 0)
 
-    def test_a_picture_beside_its_place_is_told_and_that_it_is_over(self):
+    def test_reports_a_moved_picture_and_its_return(self):
         with ScreenCamera(self) as camera:
             status = self.drift_says("the camera looks whether", 3)
             self.assertEqual(status["camera_for"], "the prop's tags, the picture's place")

@@ -17,7 +17,7 @@ LARGER, SCALE, ABOVE = (800, 600), 1.25, 50  # a larger mode, with the picture s
 
 @long
 class OtherCard(HilTest):
-    def test_projector_comes_to_the_other_card(self):
+    def test_projector_moves_to_the_other_card(self):
         machine = self.bench.machine
         self.show(ARTIFACT)
         machine.check(f"echo off > {CONNECTOR}")
@@ -73,7 +73,7 @@ class Display(HilTest):
         self.assertEqual(self.bench.main_process(), process, "it gave up waiting for its card")
         self.assertNotEqual(process, 0)
 
-    def test_driver_that_comes_late(self):
+    def test_driver_that_loads_late(self):
         self.assert_at(PLACE_M, artifact=ARTIFACT)
 
     def test_mode_change(self):

@@ -217,7 +217,7 @@ class Guidance(Advised):
         self.assertTrue(self.sign_is_there(), "the sign is gone although it was not followed")
         self.assertTrue(self.words_are_there("en"), "the words are gone although they were not followed")
 
-    def test_help_comes_before_its_time(self):
+    def test_help_button_gives_all_advice_at_once(self):
         """The help button gives all stages at once. Times count from the push, before which the exhibit cannot give advice."""
         self.take_language("en")
         pushed = self.artifact_at_its_place()

@@ -91,7 +91,7 @@ class Restart(HilTest):
         self.bench.status_says("display", LIT, BACK_S)
         self.assert_restarted()
 
-    def test_card_that_udev_has_not_given_yet(self):
+    def test_card_without_permission_yet(self):
         """The exhibit starts before its user may open the card, as at the first boot, and waits."""
         machine = self.bench.machine
         machine.check(f"systemctl stop {UNIT}; chmod 600 {CARD}; systemctl start --no-block {UNIT}")

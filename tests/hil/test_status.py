@@ -35,14 +35,14 @@ class Status(HilTest):
                   if (y > 0 or x >= screen.PROBE_PIXELS) and taken.pixel(x, y) != on_screen.pixel(x, y)]
         self.assertEqual(others, [], "pixels differ")
 
-    def test_screenshot_for_nobody_else(self):
+    def test_screenshot_is_refused_to_others(self):
         ran = self.run_as("hil-visitor", "--screenshot /run/hil/pictures/stolen.png >/dev/null")
         self.assertEqual(ran.status, 1)
         self.assertIn("only root and the staff's group may ask", ran.output)
         self.assertEqual(len(ran.output.splitlines()), 1, ran.output)
         self.assertNotEqual(self.bench.machine.run("test -e /run/hil/pictures/stolen.png").status, 0)
 
-    def test_what_it_says(self):
+    def test_visitors_can_read_the_status(self):
         """A user without access to the picture can still read the status."""
         said = self.run_as("hil-visitor", "").output
         self.assertIn(self.bench.status()["artifact"], said)

@@ -74,7 +74,7 @@ class Stereo(HilTest):
     def place_head_at(self, head):
         self.bench.tracker.tell("pose", *head, 2)
 
-    def test_each_half_is_what_one_eye_sees(self):
+    def test_each_half_shows_the_picture_of_one_eye(self):
         for pose, head in LOOKS:
             with self.subTest(pose=pose):
                 self.bench.place(pose[:3], pose[3:])

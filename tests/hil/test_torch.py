@@ -101,7 +101,7 @@ class Torch(HilTest):
             self.status_says("lost")
             self.is_as_without(prop, dark)
 
-    def test_it_stays_in_the_hand_while_the_prop_moves(self):
+    def test_light_stays_while_the_prop_moves(self):
         """The third station moves nothing else, and the first does not move the light."""
         torch = pointing(FROM_M, AIMS_M[1])
         for place in ((0.0, 0.0, 0.0), (0.02, 0.0, 0.0)):

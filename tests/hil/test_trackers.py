@@ -21,14 +21,14 @@ class Trackers(HilTest):
         self.bench.status_says("tracker", "is running", FOUND_S)
         self.assert_at(PLACE_M, artifact=ARTIFACT)
 
-    def test_viper_filters_nothing(self):
+    def test_viper_filters_are_switched_off(self):
         """The driver switches both of the tracker's own filters off when it finds the tracker."""
         self.show(ARTIFACT)
         eventually(lambda: not any(self.bench.tracker.tell("status")["filter_levels"].values()), FOUND_S,
                    "the VIPER filters by itself")
 
     @long
-    def test_a_dead_one_does_not_keep_the_other_out(self):
+    def test_a_hanging_tracker_does_not_block_another(self):
         self.show(ARTIFACT)
         dead = self.bench.other_trackers["patriot"]
         self.addCleanup(dead.tell, "unplug")

@@ -78,7 +78,7 @@ class Windows(HilTest):
         self.show(ARTIFACT)
         self.bench.place(PROP[:3])
 
-    def test_a_window_is_seen_where_it_was_pinned_and_goes_with_the_visit(self):
+    def test_window_stays_where_pinned_until_the_visit_ends(self):
         dark = self.bench.resting_picture_of(PROP)
         self.bench.buttons.tell("press", WINDOW, "300ms")
         width = dark.width

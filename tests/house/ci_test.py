@@ -21,12 +21,12 @@ class Parts(unittest.TestCase):
         self.assertEqual(ran.stderr, "")
         return ran.returncode, ran.stdout.partition("== part")[2].splitlines()[1:]
 
-    def test_all_pass(self):
+    def test_prints_only_the_table_if_all_parts_pass(self):
         status, lines = self.run_parts("part one 85 86 true; part two 85 86 echo done")
         self.assertEqual((status, len(lines)), (0, 2))
         self.assertTrue(all(line.endswith("passed") for line in lines), lines)
 
-    def test_a_failure_is_said_with_its_log(self):
+    def test_prints_a_failed_part_with_its_log(self):
         status, lines = self.run_parts("part one 85 86 bash -c 'echo reason; exit 3'; part two 85 86 true")
         self.assertEqual(status, 1)
         self.assertEqual(lines[2:], [f"== one failed; its whole output is in {self.logs}/one.log", "   reason"])
@@ -39,7 +39,7 @@ class Parts(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("ended at minute 1; run sleep 30 by hand", lines[0])
 
-    def test_a_part_that_may_lack_time(self):
+    def test_tolerates_a_part_that_may_lack_time(self):
         status, lines = self.run_parts("may_lack_time=true part one 0 86 true; SECONDS=59; may_lack_time=true part two 85 1 sleep 30")
         self.assertEqual((status, len(lines)), (0, 2))
         status, lines = self.run_parts("may_lack_time=true part one 85 86 bash -c 'exit 124'")  # not of timeout
@@ -48,7 +48,7 @@ class Parts(unittest.TestCase):
         status, _ = self.run_parts("may_lack_time=true part one 0 86 true; part two 0 86 true")  # set for one part alone
         self.assertEqual(status, 1)
 
-    def test_all_failures_are_in_the_last_ten_lines(self):
+    def test_prints_all_failures_in_the_last_ten_lines(self):
         for count in range(1, 8):
             parts = "; ".join(f"part number_{k} 85 86 bash -c 'seq 50; false'" for k in range(count))
             _, lines = self.run_parts(parts)
@@ -64,39 +64,39 @@ class WhyFailed(unittest.TestCase):
             ran = subprocess.run([CI / "why_failed", log.name, str(lines)], capture_output=True, text=True, check=True)
         return [line.strip() for line in ran.stdout.splitlines()]
 
-    def test_googletest(self):
+    def test_extracts_failures_of_googletest(self):
         self.assertEqual(self.said("[ RUN      ] Pack.Opens\n/house/tests/pack_test.cpp:53: Failure\nExpected equality:\n  1\n  2\n\n"
                                    "[  FAILED  ] Pack.Opens (2 ms)\n\t113 - pack_test (Failed)\n\t7 - cluster_test (Skipped)\n"),
                          ["pack_test.cpp:53: Failure | Expected equality: | 1 | 2", "pack_test (Failed)"])
 
-    def test_unittest(self):
+    def test_extracts_failures_of_unittest(self):
         self.assertEqual(self.said("ERROR: test_seen (test_screen.Screen)\nIt is seen.\n----\nTraceback (most recent call last):\n"
                                    "  File \"x.py\", line 3\n    see()\n    ^^^^^\nTypeError: no object\n\nFAIL: test_stop (a.B)\n"
                                    "Traceback (most recent call last):\nmachine.MachineError: no answer\n"),
                          ["ERROR: test_seen (test_screen.Screen): TypeError: no object",
                           "FAIL: test_stop (a.B): machine.MachineError: no answer"])
 
-    def test_files_that_were_left(self):
+    def test_extracts_files_that_were_left_behind(self):
         self.assertEqual(self.said("bake_test left these in the temporary folder:\n./pulse\n./pulse/native\n 54/165 Test #1: ok\n1 passed\n"),
                          ["bake_test left these in the temporary folder: | ./pulse | ./pulse/native"])
 
-    def test_checks_of_scripts_pages_and_units(self):
+    def test_extracts_failures_of_scripts_pages_and_units(self):
         self.assertEqual(self.said("\nIn ./run line 3:\necho $x\n     ^-- SC2086: quote it\n\nx.cpp:3:1: error: no\ntests/x.py:1:1: 'os' imported\n"
                                    "docs/packs.md:7: frustumscreen-pack x\nfailed: frustumscreen.service\ntests/a.sh: line 3: no\nfine\n"),
                          ["In ./run line 3: | echo $x | ^-- SC2086: quote it", "x.cpp:3:1: error: no", "tests/x.py:1:1: 'os' imported",
                           "docs/packs.md:7: frustumscreen-pack x", "failed: frustumscreen.service", "tests/a.sh: line 3: no"])
 
-    def test_otherwise_the_last_lines(self):
+    def test_falls_back_to_the_last_lines(self):
         self.assertEqual(self.said("".join(f"{k}\n" for k in range(30)), 3), ["27", "28", "29"])
         self.assertEqual(self.said("one\n", 3), ["one"])
         self.assertEqual(self.said("one\n", 0), [])
 
-    def test_no_more_than_asked_for(self):
+    def test_prints_at_most_the_requested_lines(self):
         self.assertEqual(len(self.said("failed: a\n" * 30, 4)), 4)
 
 
 class Skipped(unittest.TestCase):
-    def test_of_googletest_and_unittest(self):
+    def test_lists_skipped_googletest_and_unittest_cases(self):
         log = ("a_test.cpp:7: Skipped\nno GPU\n\n[  SKIPPED ] A.Draws (2 ms)\ntest_units (b.Units) ... ok\ntest_one (b.Units.test_one)\n"
                "It has a description. ... skipped 'no lintian'\ntest_two (b.Units.test_two) ... skipped 'why'\n")
         with tempfile.NamedTemporaryFile("w", suffix=".log") as file:

@@ -95,7 +95,7 @@ std::set<std::string> message_ids_in(const fs::path& file) {
     return ids;
 }
 
-TEST(House, AMessageIdBelongsToOneFile) {
+TEST(House, MessageIdsAreUniqueToOneFile) {
     std::map<std::string, fs::path> owners;
     for (const fs::path& file : files_ending({".cpp", ".h"})) {
         if (*file.begin() == "tests") {
@@ -111,7 +111,7 @@ TEST(House, AMessageIdBelongsToOneFile) {
 }
 
 /// A path of this clone in a precompiled header would make every file that reads it unknown to ccache in another clone.
-TEST(House, GeneratedSourcesNameNoFolderOfThisClone) {
+TEST(House, GeneratedSourcesDoNotContainThePathOfTheClone) {
     const fs::path build = frustumscreen::build_dir();
     std::vector<fs::path> files;
     for (const fs::path& folder : {build / "CMakeFiles", build / "together"}) {
@@ -137,7 +137,7 @@ TEST(House, GeneratedSourcesNameNoFolderOfThisClone) {
 class SlowestTimes : public frustumscreen::WithTemporaryFolder {};
 
 /// More lines than a pipe holds: a reader that ends early would end the script.
-TEST_F(SlowestTimes, OfManyAreListed) {
+TEST_F(SlowestTimes, AreListedFromALargeTable) {
     const fs::path times = folder / "times.tsv";
     std::ofstream out(times);
     for (int k = 0; k < 5000; ++k) {
@@ -156,7 +156,26 @@ TEST_F(SlowestTimes, OfManyAreListed) {
 
 } // namespace
 
-TEST(House, NoFileIsTooLongToRead) {
+/// A name that begins with one of these words is no statement, such as WhatIsWrongIsSaid.
+TEST(House, TestNamesDoNotBeginWithARelativePronoun) {
+    const std::regex macro(R"(^TEST(?:_F|_P)?\(\w+, *(?:DISABLED_)?(\w+)\))");
+    const std::regex method(R"(^ +(?:async )?def test_(\w+)\()");
+    const std::regex pronoun(
+        "(Of|What|Who|Whose|Where|Nobody)([A-Z_].*|$)|(of|what|who|whose|where|nobody)(_.*|$)");
+    std::size_t names = 0;
+    for (const fs::path& file : files_ending({".cpp", ".py"})) {
+        for (const std::string& line : lines_of(file)) {
+            std::smatch found;
+            if (std::regex_search(line, found, file.extension() == ".py" ? method : macro)) {
+                ++names;
+                EXPECT_FALSE(std::regex_match(found[1].str(), pronoun)) << file << ": " << found[1];
+            }
+        }
+    }
+    EXPECT_GT(names, 3500U);
+}
+
+TEST(House, FilesStayWithinTheLimitOfLines) {
     for (const fs::path& file : files_ending({".h", ".cpp", ".cmake", ".sh"})) {
         EXPECT_LE(lines_of(file).size(), static_cast<std::size_t>(max_lines)) << file;
     }
@@ -230,7 +249,7 @@ std::vector<std::string> words_not_used() {
     return words;
 }
 
-TEST(House, NoIdentifierUsesAWordThatTheGlossaryReplaces) {
+TEST(House, IdentifiersUseNoWordThatTheGlossaryReplaces) {
     const std::vector<std::string> words = words_not_used();
     ASSERT_GE(words.size(), 10U);
     // In an identifier a word begins with a capital, or between underscores.
@@ -251,7 +270,7 @@ TEST(House, NoIdentifierUsesAWordThatTheGlossaryReplaces) {
     EXPECT_GT(looked_at, 10000U);
 }
 
-TEST(House, NothingIsLeftForLater) {
+TEST(House, FilesHaveNoMarksOfUnfinishedWork) {
     const std::vector<std::string> marks = {std::string("TO") + "DO", std::string("FIX") + "ME",
                                             std::string("XX") + "X:"};
     for (const fs::path& file : files_ending({".h", ".cpp", ".cmake", ".sh", ".txt", ".md", ".toml"})) {
@@ -265,7 +284,7 @@ TEST(House, NothingIsLeftForLater) {
     }
 }
 
-TEST(House, EveryHeaderSaysWhatItIs) {
+TEST(House, EveryHeaderBeginsWithADescription) {
     for (const fs::path& file : files_ending({".h"})) {
         if (file.begin()->string() == "tests") {
             continue;
@@ -277,7 +296,7 @@ TEST(House, EveryHeaderSaysWhatItIs) {
 }
 
 /// A file that bypasses json.h compiles the whole library again.
-TEST(House, JsonIsIncludedByItsHeader) {
+TEST(House, JsonIsIncludedOnlyThroughItsHeader) {
     for (const fs::path& file : files_ending({".h", ".cpp"})) {
         for (const std::string& line : lines_of(file)) {
             EXPECT_TRUE(line != "#include <nlohmann/json.hpp>" || file == "firmware_host/base/json.h")
@@ -316,7 +335,7 @@ TEST_F(SkippedTests, AreListedWithTheirReasons) {
                                   "   B.Silent: it does not say why\n");
 }
 
-TEST(House, EveryLinkLeadsToAFile) {
+TEST(House, EveryLinkInPagesLeadsToAFile) {
     std::size_t links = 0;
     for (const fs::path& page : pages()) {
         for (const fs::path& target : linked_from(page)) {

@@ -65,7 +65,7 @@ protected:
 
 } // namespace
 
-TEST_P(Lossless, every_texel_comes_back_unchanged_under_alpha_too) {
+TEST_P(Lossless, round_trip_keeps_every_texel_with_alpha) {
     for (const Image8& image :
          {noise(61, 37, false), noise(61, 37, true), smooth(200, 100), noise(1, 1, true)}) {
         const Result<Image8> back = codec_.decode(codec_.encode(image), plenty);
@@ -77,7 +77,7 @@ TEST_P(Lossless, every_texel_comes_back_unchanged_under_alpha_too) {
 }
 
 /// No time stamp and no program name: equal pictures give equal bytes.
-TEST_P(Lossless, a_file_has_the_picture_and_nothing_else) {
+TEST_P(Lossless, output_is_deterministic_with_only_expected_chunks) {
     const Image8 image = noise(20, 30, true);
     const Bytes bytes = codec_.encode(image);
     EXPECT_EQ(bytes, codec_.encode(image));

@@ -9,7 +9,7 @@
 namespace frustumscreen::image {
 namespace {
 
-TEST(HalfSize, IsTheMeanOfLightAndNotOfCodes) {
+TEST(HalfSize, AveragesLinearLight) {
     Image8 image(2, 2, {0, 0, 0, 255});
     image.at(0, 0) = {255, 255, 0, 255};
     image.at(1, 1) = {255, 0, 0, 255};
@@ -19,14 +19,14 @@ TEST(HalfSize, IsTheMeanOfLightAndNotOfCodes) {
     EXPECT_EQ(half.at(0, 0), glm::u8vec4(188, 137, 0, 255)); // half and a quarter of the light, IEC 61966-2-1
 }
 
-TEST(HalfSize, KeepsEveryCodeOfAnEvenPicture) {
+TEST(HalfSize, KeepsEveryCodeOfAUniformPicture) {
     for (int code = 0; code < 256; ++code) {
         const auto c = static_cast<std::uint8_t>(code);
         EXPECT_EQ(half_size(Image8(4, 6, {c, c, c, c})).at(1, 2), glm::u8vec4(c, c, c, c)) << code;
     }
 }
 
-TEST(HalfSize, GivesEachTexelOfAnOddPictureItsShare) {
+TEST(HalfSize, WeightsTexelsOfAnOddPictureByArea) {
     Image8 image(5, 1, {0, 0, 0, 255});
     image.at(2, 0) = {255, 255, 255, 255}; // the middle texel: half of it goes to each side
     const Image8 half = half_size(image);

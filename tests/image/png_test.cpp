@@ -21,7 +21,7 @@ TEST(Png, alpha_is_stored_where_there_is_any) {
     EXPECT_EQ(byte_at(encode_png(noise(61, 37, false)), 25), 2);
 }
 
-TEST(Png, each_of_the_65536_reliefs_comes_back_unchanged) {
+TEST(Png, round_trip_keeps_all_65536_heights) {
     Image16 image(256, 256);
     for (std::size_t k = 0; k < image.texels.size(); ++k) {
         image.texels[k] = static_cast<std::uint16_t>(k * 40503U);

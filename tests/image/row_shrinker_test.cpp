@@ -57,7 +57,7 @@ Image8 half_by_areas(const Image8& whole) {
     return half;
 }
 
-TEST(RowShrinker, HalvesPicturesOfAnySizeByTheirAreas) {
+TEST(RowShrinker, HalvesPicturesOfAnySizeByArea) {
     const std::vector<glm::ivec2> sizes{{64, 48}, {63, 47},  {1, 37}, {41, 1},
                                         {2, 3},   {57, 100}, {3, 3},  {1, 1}};
     for (const glm::ivec2& size : sizes) {
@@ -85,7 +85,7 @@ TEST(RowShrinker, HalvesPicturesOfAnySizeByTheirAreas) {
     }
 }
 
-TEST(RowShrinker, RowsThatDidNotArriveAreBlackAndMoreAreLeftOut) {
+TEST(RowShrinker, FillsMissingRowsWithBlackAndIgnoresExtraRows) {
     const Image8 whole(4, 4, {200, 200, 200, 255});
     RowShrinker half({4, 4}, 1);
     half.add(std::span(whole.texels).subspan(0, 4));

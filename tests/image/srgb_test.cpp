@@ -10,14 +10,14 @@
 using namespace frustumscreen;
 using namespace frustumscreen::image;
 
-TEST(Srgb, every_code_comes_back_from_linear_light) {
+TEST(Srgb, round_trip_keeps_every_code) {
     for (int code = 0; code < 256; ++code) {
         EXPECT_EQ(srgb8_from_linear(linear_from_srgb(code / 255.0)), code);
         EXPECT_EQ(srgb8_from_linear(linear_from_srgb8()[static_cast<std::size_t>(code)]), code);
     }
 }
 
-TEST(Srgb, is_the_standard_curve_at_known_points) {
+TEST(Srgb, matches_the_standard_at_known_points) {
     EXPECT_NEAR(linear_from_srgb(0.5), 0.21404114, 1e-8);
     EXPECT_NEAR(srgb_from_linear(0.18), 0.46135612, 1e-8);
     EXPECT_NEAR(linear_from_srgb(0.04045), 0.04045 / 12.92, 1e-15);

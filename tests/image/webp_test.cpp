@@ -8,17 +8,17 @@
 using namespace frustumscreen;
 using namespace frustumscreen::image;
 
-TEST(WebP, its_bytes_begin_as_webp) {
+TEST(WebP, begins_with_the_webp_signature) {
     EXPECT_TRUE(begins_as_webp(encode_webp(noise(61, 37, true))));
     EXPECT_FALSE(begins_as_webp(encode_png(noise(61, 37, true))));
 }
 
-TEST(WebP, a_smooth_picture_takes_less_than_as_png) {
+TEST(WebP, is_smaller_than_png_for_a_smooth_picture) {
     const Image8 image = smooth(400, 300);
     EXPECT_LT(encode_webp(image).size(), encode_png(image).size());
 }
 
-TEST(WebP, what_it_cannot_hold_gives_no_bytes) {
+TEST(WebP, a_picture_that_is_too_wide_gives_no_bytes) {
     EXPECT_FALSE(encode_webp(Image8(16383, 1)).empty());
     EXPECT_TRUE(encode_webp(Image8(16384, 1)).empty());
 }

@@ -53,7 +53,7 @@ class Bundle(Folder):
     def info(self, keyring="ours"):
         return run("rauc", "info", f"--keyring={self.folder / keyring}.crt", "--output-format=shell", self.out)
 
-    def test_what_rauc_reads(self):
+    def test_rauc_reads_the_bundle(self):
         done = self.make()
         self.assertEqual(done.returncode, 0, done.stderr)
         told = self.info()
@@ -71,7 +71,7 @@ class Bundle(Folder):
         self.assertEqual((inside / "frustumscreen_1.2.0.efi").read_bytes(), self.files["frustumscreen_1.2.0.efi"])
         self.assertIn("format=verity", (inside / "manifest.raucm").read_text(encoding="ascii"))
 
-    def test_what_is_inside_is_the_same_each_time(self):
+    def test_contents_are_reproducible(self):
         insides = []
         for _ in range(2):
             self.assertEqual(self.make().returncode, 0)
@@ -80,7 +80,7 @@ class Bundle(Folder):
             insides.append(hashlib.sha256(made[:used]).hexdigest())
         self.assertEqual(insides[0], insides[1])
 
-    def test_another_key_and_what_is_cut_or_changed(self):
+    def test_rejects_another_key_and_damaged_bundles(self):
         self.assertEqual(self.make().returncode, 0)
         self.assertIn("signature verification failed", self.info("theirs").stderr)
         whole = self.out.read_bytes()
@@ -93,7 +93,7 @@ class Bundle(Folder):
         self.out.write_bytes(whole)
         self.assertEqual(self.info().returncode, 0)
 
-    def test_wrong_use_is_one_sentence(self):
+    def test_reports_wrong_use_in_one_line(self):
         for options, words in ((("--version", "9"), "has no version '9'"), (("-o", self.folder / "x"), "does not end with .raucb"),
                                (("--key", "/nowhere"), "cannot be read"), (("--speed",), "there is no option"), (("-o",), "needs a value")):
             done = self.make(*options)
@@ -136,7 +136,7 @@ class BootSlots(Folder):
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertEqual(self.images(), before)
 
-    def test_which_starts(self):
+    def test_primary_slot_has_the_newest_version_with_tries(self):
         """The primary slot is that of the newest version with tries left, in systemd-boot's own order."""
         for ours, other, primary, state in (
                 ("1.2.0+5", "1.3.0+3", "b", "good"), ("1.2.0+4-1", "1.3.0+0-3", "a", "bad"), ("1.2.0", "1.10.0+1-2", "b", "good"),
@@ -153,7 +153,7 @@ class BootSlots(Folder):
         self.image("frustumscreen_1.2.0+5.efi", RUNNING)
         self.assertEqual((self.says("get-state", "a"), self.says("get-state", "b"), self.says("get-primary")), ("good", "bad", "a"))
 
-    def test_an_update_from_its_beginning_to_its_end(self):
+    def test_a_whole_update(self):
         self.image("frustumscreen_1.2.0+5.efi", RUNNING)
         self.image("frustumscreen_1.1.0+5.efi", OTHER)
         self.image("new.part", OTHER)  # a power cut left it
@@ -164,7 +164,7 @@ class BootSlots(Folder):
         self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi", "frustumscreen_1.3.0+3.efi"])
         self.assertEqual(self.says("get-primary"), "b")
 
-    def test_a_good_start_arms_the_tries_again(self):
+    def test_a_good_start_restores_the_tries(self):
         for name in ("1.2.0+2-1", "1.2.0", "1.2.0+0-5", "1.2.0+5"):
             for path in self.linux.iterdir():
                 path.unlink()
@@ -172,7 +172,7 @@ class BootSlots(Folder):
             self.says("set-state", "a", "good")
             self.assertEqual(self.images(), ["frustumscreen_1.2.0+5.efi"])
 
-    def test_what_a_power_cut_leaves_of_a_rename(self):
+    def test_cleans_up_a_rename_after_a_power_cut(self):
         """An empty new name is removed; of two names of one file none is, because that would free the other's blocks."""
         self.image("frustumscreen_1.2.0+4-1.efi", RUNNING)
         (self.linux / "frustumscreen_1.2.0+5.efi").touch()
@@ -188,14 +188,14 @@ class BootSlots(Folder):
             self.says(*words)
             self.assertEqual(self.images(), both)
 
-    def test_the_running_version_is_never_taken_away(self):
+    def test_never_removes_the_running_version(self):
         self.image("frustumscreen_1.2.0+5.efi", RUNNING)
         self.image("frustumscreen_1.3.0.efi", OTHER, self.folder / "bundle")
         for words in (("set-state", "a", "bad"), ("set-primary", "a"), ("set-state", "b", "good"), ("set-state", "b", "so-so"),
                       ("get-state", "c"), ("get-primary", "a"), ("explode",), ()):
             self.refuses(*words)
 
-    def test_a_bundle_without_one_kernel_image(self):
+    def test_rejects_a_bundle_without_exactly_one_kernel_image(self):
         self.image("frustumscreen_1.2.0+5.efi", RUNNING)
         self.refuses("set-primary", "b")
         for version in ("1.3.0", "1.4.0"):
@@ -246,14 +246,14 @@ class TrimBootFolder(Folder):
     def trim(self):
         return run(TRIM, self.disk)
 
-    def test_removed_names_at_the_end_go(self):
+    def test_trims_removed_names_at_the_end(self):
         self.put("frustumscreen_0.1.0+5.efi", "frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+2-1.efi")
         self.remove("frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+2-1.efi")
         self.assertEqual(self.kinds().count(0xE5), 7)
         self.assertEqual((self.trim().returncode, self.kinds()[3:]), (0, [0] * 11))
         self.assertEqual(self.images(), ["frustumscreen_0.1.0+5.efi"])
 
-    def test_removed_names_before_others_stay(self):
+    def test_keeps_removed_names_before_others(self):
         self.put("frustumscreen_0.1.0+5.efi", "frustumscreen_0.2.0+3.efi", "frustumscreen_0.2.0+2-1.efi")
         self.remove("frustumscreen_0.1.0+5.efi")
         before = self.disk.read_bytes()
@@ -268,7 +268,7 @@ class TrimBootFolder(Folder):
         self.put("frustumscreen_1.0.0+3.efi")  # no removed name comes back
         self.assertEqual(self.images(), [*names[:2], "frustumscreen_1.0.0+3.efi"])
 
-    def test_what_is_no_boot_partition(self):
+    def test_rejects_other_partitions(self):
         for disk, words in ((bytes(1 << 20), "no FAT32"), (None, "no folder EFI/Linux")):
             if disk is None:
                 self.made("mdeltree", "-i", self.disk, "::EFI/Linux")

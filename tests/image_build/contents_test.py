@@ -62,7 +62,7 @@ class Contents(unittest.TestCase):
         self.assertAlmostEqual(rows[-1][1], image / 1e6, delta=0.006)
         self.assertAlmostEqual(sum(row[1] for row in rows[:-1]), image / 1e6, delta=0.01 * len(rows))
 
-    def test_the_largest_comes_first_with_its_reason(self):
+    def test_sorts_by_size_with_reasons(self):
         purposes, packages = self.rows("MB packed, what for"), self.rows("package: reason")
         self.assertEqual(purposes[0], (0.7, 0.7, "our programs and data"))  # noise cannot be compressed
         self.assertEqual(purposes[1], (1.2, 0.3, "graphics: LLVM, by which the processor draws, and what it links"))
@@ -71,7 +71,7 @@ class Contents(unittest.TestCase):
         self.assertNotIn("perl", self.why.stdout)
         self.assertIn("etc/systemd/system/frog.service: which units run", self.why.stdout)
 
-    def test_a_file_twice_takes_its_bytes_once(self):
+    def test_counts_duplicate_files_once(self):
         listed = call(WHY, self.out, "--files", "tzdata").stdout.split()
         sizes = [int(number.replace(",", "")) for number in listed if number.replace(",", "").isdigit()]
         self.assertEqual(sizes[::2], [118, 118, 0])
@@ -85,13 +85,13 @@ class Contents(unittest.TestCase):
             for word in words:
                 self.assertIn(word, done.stderr)
 
-    def test_a_file_without_a_reason_is_told_in_one_line(self):
+    def test_rejects_a_file_without_a_reason(self):
         self.assert_refused(("usr/bin/perl", "x", None), "usr/bin/perl (perl)", "without a reason")
 
-    def test_a_module_without_a_reason_is_told_in_one_line(self):
+    def test_rejects_a_module_without_a_reason(self):
         self.assert_refused(("usr/lib/modules/6.1/kernel/drivers/net/e1000.ko", "x", None), "e1000.ko", "without a reason")
 
-    def test_a_package_without_a_purpose_is_told_in_one_line(self):
+    def test_rejects_a_package_without_a_purpose(self):
         self.assert_refused(("usr/bin/perl", "x", "to see"), "usr/bin/perl (perl)", "without a purpose")
 
     def test_wrong_use(self):
@@ -102,13 +102,13 @@ class Contents(unittest.TestCase):
         (self.work / "empty").mkdir()
         self.assertIn("has no frustumscreen_*.slot", call(WHY, self.work / "empty").stderr)
 
-    def test_the_bill_follows_the_schema(self):
+    def test_sbom_matches_the_schema(self):
         self.assertEqual(spdx_list.schema_errors(self.bill), [])
         worse = json.loads(json.dumps(self.bill))
         worse["components"][0]["licenses"] = [{"license": {"id": "Frog-1.0"}}]
         self.assertNotEqual(spdx_list.schema_errors(worse), [])
 
-    def test_the_bill_lists_what_is_there_and_nothing_else(self):
+    def test_sbom_lists_exactly_the_components(self):
         packages = {"frustumscreen", "libllvm15", "libc6", "tzdata", "base-files", "linux-image-6.1", "systemd-boot-efi", "busybox-static"}
         self.assertEqual(set(self.components), packages | set(compiled_in()) | {"frustumscreen-image-settings"})
         llvm = self.components["libllvm15"]
@@ -121,7 +121,7 @@ class Contents(unittest.TestCase):
         self.assertNotIn("licenses", self.components["libc6"])
         self.assertEqual(self.components["libc6"]["evidence"], {"licenses": [{"license": {"name": "refers to LGPL-2.1"}}]})
 
-    def test_what_a_package_needs_is_told_as_far_as_it_is_there(self):
+    def test_lists_dependencies_that_are_present(self):
         graph = {row["ref"]: row["dependsOn"] for row in self.bill["dependencies"]}
         references = {name: component["bom-ref"] for name, component in self.components.items()}
         self.assertEqual(graph[references["libllvm15"]], [references["libc6"], references["tzdata"]])
@@ -142,7 +142,7 @@ class Contents(unittest.TestCase):
                                    "boot_partition/loader/loader.conf"})
         self.assertIn("initrd/lib/x86_64-linux-gnu/libc.so.6", [file["name"] for file in self.components["libc6"]["components"]])
 
-    def test_licence_texts_are_there_once_and_complete(self):
+    def test_contains_each_licence_text_once(self):
         with tarfile.open(self.out / "licences.tar") as tar:
             texts = {name.removeprefix("licences/"): tar.extractfile(name).read().decode() for name in tar.getnames()}
         places = dict(line.split("\t") for line in texts["INDEX"].splitlines())
@@ -154,7 +154,7 @@ class Contents(unittest.TestCase):
         self.assertEqual(len([name for name in texts if name.startswith("packages/")]), len(set(places.values())))
         self.assertEqual({name for name in texts if name.startswith("common-licenses/")}, {"common-licenses/Apache-2.0", "common-licenses/LGPL-2.1"})
 
-    def test_the_same_image_gives_the_same_bytes(self):
+    def test_output_is_reproducible(self):
         again = self.work / "again"
         shutil.copytree(self.out, again)
         for name in ("sbom.json", "licences.tar"):

@@ -45,27 +45,27 @@ class Copy(PressedScript, unittest.TestCase):
         self.assertEqual(self.confirmed(), [])
         self.assertEqual((self.top / REPORT).read_text(encoding="ascii"), "")
 
-    def test_both(self):
+    def test_acts_after_mark_and_button(self):
         self.assertEqual(self.copy(), [f"start --no-block frustumscreen-stick@{STICK}.service"])
         self.assertEqual(self.confirmed(), [f"{STICK}.confirm"])
         self.assertEqual((self.top / REPORT).read_text(encoding="ascii"), "", "the writer and the importer tell")
 
-    def test_a_mark_that_names_no_stick(self):
+    def test_ignores_a_mark_without_a_valid_stick(self):
         for text in ("", "../stick7", "stick7 stick8", "stick7\nstick8", "-.mount", "STICK7", "stick7@"):
             with self.subTest(text):
                 self.write({self.asked: text, self.pressed: ""})
                 self.assert_nothing_done()
 
-    def test_the_first_look_at_the_stick_ends_before(self):
+    def test_waits_until_the_stick_is_unmounted(self):
         self.write({"mounts": f"/dev/sda1 {self.top}/run/frustumscreen-stick/{STICK} vfat ro 0 0\n"})
         self.write_program("sleep", f": >{self.top}/mounts\necho sleep >>\"$SAID\"")
         self.assertEqual(self.copy(), ["sleep", f"start --no-block frustumscreen-stick@{STICK}.service"])
 
-    def test_one_that_does_not_end_is_not_waited_for_for_ever(self):
+    def test_stops_waiting_for_an_import_that_does_not_end(self):
         self.active = f"{DEVICE} {IMPORT}"
         self.assertEqual(self.copy(), [f"start --no-block frustumscreen-stick@{STICK}.service"])
 
-    def test_a_stick_that_was_pulled_out_is_told(self):
+    def test_reports_a_stick_that_was_pulled_out(self):
         self.active = ""
         self.assertEqual(self.copy(), [])
         self.assertEqual(self.confirmed(), [])

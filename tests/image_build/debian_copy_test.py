@@ -63,7 +63,7 @@ class DebianCopy(unittest.TestCase):
     def assert_fetched(self, times):
         self.assertEqual(len(self.fetches.read_text(encoding="utf-8").splitlines()), times)
 
-    def test_another_clone_takes_the_copy(self):
+    def test_another_clone_uses_the_copy(self):
         first, second = self.build("first"), self.build("second")
         self.assert_fetched(1)
         self.assertEqual(first.name, second.name)
@@ -79,7 +79,7 @@ class DebianCopy(unittest.TestCase):
         self.assert_fetched(2)
         self.assertEqual([copy.name[-18:] for copy in self.copies.iterdir()], ["2026-05-02.tar.zst"])
 
-    def test_a_damaged_copy_is_made_again(self):
+    def test_replaces_a_damaged_copy(self):
         self.build("first")
         copy, = self.copies.iterdir()
         whole = copy.read_bytes()

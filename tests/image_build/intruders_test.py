@@ -14,10 +14,10 @@ CALM = {
 
 
 class Judge(unittest.TestCase):
-    def test_nobody_is_in(self):
+    def test_accepts_an_unchanged_machine(self):
         self.assertEqual(intruders.wrong(CALM, copy.deepcopy(CALM)), [])
 
-    def test_each_break_in(self):
+    def test_reports_each_break_in(self):
         for kind, lines, words in (
                 ("process", [*CALM["process"], "/usr/bin/bash"], "/usr/bin/bash runs"),
                 ("process", [*CALM["process"], "/run/frustumscreen"], "/run/frustumscreen runs"),

@@ -45,14 +45,14 @@ class LicenceNames(unittest.TestCase):
         for short, spdx in ROWS:
             self.assertEqual(copyright_file.expression(short), spdx)
 
-    def test_every_name_is_one_of_spdx(self):
+    def test_every_name_is_known_to_spdx(self):
         known = [*copyright_file.NAMES.values(), *(spdx for _, spdx in ROWS)]
         known += [f"GPL-2.0-only WITH {name}" for name in copyright_file.EXCEPTIONS.values() if name != "LLVM-exception"]
         for spdx in known:
             self.assertEqual(spdx_list.unknown_of(spdx), [], spdx)
         self.assertEqual(spdx_list.unknown_of("MIT OR Frog-1.0"), ["Frog-1.0"])
 
-    def test_the_packaging_and_what_is_not_machine_readable_name_nothing(self):
+    def test_ignores_packaging_and_free_text(self):
         files = "Files: *\nCopyright: a\nLicense: Zlib\n text\n\nFiles: debian/*\nCopyright: b\nLicense: GPL-2\n"
         self.assertEqual(copyright_file.licences_of(FORMAT + files), ["Zlib"])
         self.assertEqual(copyright_file.licences_of("This is free.\n\n" + files), [])

@@ -68,24 +68,24 @@ class NewSettings(unittest.TestCase):
         self.assertIsNone(proving.poll())
         self.assertEqual(self.read("settings/kiosk.toml.proved.new"), "new")
 
-    def test_good_ones(self):
+    def test_keeps_good_settings(self):
         self.assertEqual(self.start(), [RESTART, PROVE])
         self.assertEqual((self.read("settings/kiosk.toml"), self.read("memory")), ("new", "x"))
         self.assertFalse((self.top / "run/frustumscreen-import/report.json").exists(), "what the importer told is overwritten")
 
-    def test_the_exhibit_does_not_start_with_them(self):
+    def test_restores_settings_when_the_exhibit_does_not_start(self):
         self.write("fails", "1\n")
         self.assertEqual(self.start(), [RESTART, RESTART])
         self.assertEqual(self.read("settings/kiosk.toml"), "before")
         report = json.loads(self.read("run/frustumscreen-import/report.json"))
         self.assertEqual([(pack["file"], pack["outcome"], pack["refusal"]) for pack in report["packs"]], [("kiosk.toml", "refused", "not_a_pack")])
 
-    def test_after_a_fault_the_watchdog_begins_anew(self):
+    def test_resets_the_watchdog_after_a_fault(self):
         self.write("run/frustumscreen-watchdog/mode", "safe\n")
         self.assertEqual([line.split()[0] for line in self.start()], ["stop", "start", "restart", "restart"])
         self.assertFalse((self.top / "memory").exists())
 
-    def test_an_update_starts_the_machine_anyway(self):
+    def test_leaves_the_restart_to_an_update(self):
         self.write("run/frustumscreen-update/installed-stick1", "")
         self.assertEqual(self.start(), [])
 

@@ -65,14 +65,14 @@ class Packages(unittest.TestCase):
         for name in ("frustumscreen", "frustumscreen-bake"):
             self.assertIn(f"frustumscreen-base (= {version})", self.field(name, "Depends"))
 
-    def test_what_is_opened_by_name_is_depended_on(self):
+    def test_depends_on_files_opened_by_name(self):
         # dpkg-shlibdeps does not know these, because the programs' files do not name them.
         self.assertLessEqual({"libegl-mesa0", "libgl1-mesa-dri", "fonts-dejavu-core", "tzdata"}, self.depends("frustumscreen-base"))
         self.assertLessEqual({"systemd", "udev", "mount", "ntfs-3g"}, self.depends("frustumscreen"))
         self.assertIn("fonts-noto-core", self.depends("frustumscreen-bake"))
         self.assertIn("espeak-ng", self.depends("frustumscreen-bake", "Recommends"))
 
-    def test_what_is_linked_is_depended_on(self):
+    def test_depends_on_linked_libraries(self):
         linked = {program: set(re.findall(r"NEEDED +(\S+)", run("objdump", "--private-headers", program)))
                   for tree in self.trees.values() for program in (tree / "usr/bin").iterdir()}
         owners = {}
@@ -89,7 +89,7 @@ class Packages(unittest.TestCase):
         all_files = [file for files in self.files.values() for file in files]
         self.assertEqual(len(all_files), len(set(all_files)))
 
-    def test_places(self):
+    def test_files_are_in_allowed_places(self):
         for name, files in self.files.items():
             for file in files:
                 self.assertRegex(file, r"^(/usr/(bin|share|lib/(frustumscreen|systemd|udev|sysctl\.d|sysusers\.d|tmpfiles\.d))"
@@ -111,7 +111,7 @@ class Packages(unittest.TestCase):
                 self.assertEqual(owner, "root/root", line)
                 self.assertRegex(mode, r"^(drwxr-xr-x|-rwxr-xr-x|-rw-r--r--)$", line)
 
-    def test_programs_are_stripped_and_do_not_name_the_folder_of_the_build(self):
+    def test_programs_are_stripped_and_contain_no_build_path(self):
         for tree in self.trees.values():
             for path in tree.rglob("*"):
                 if path.is_file():
@@ -119,7 +119,7 @@ class Packages(unittest.TestCase):
             for program in (tree / "usr/bin").iterdir():
                 self.assertNotIn(".debug_info", run("objdump", "--section-headers", program))
 
-    def test_what_the_units_start_is_there(self):
+    def test_programs_started_by_units_exist(self):
         """Our files come from our packages, any other file from a dependency or from a package that every Debian has."""
         ours = self.files["frustumscreen"] | self.files["frustumscreen-base"]
         units = self.trees["frustumscreen"] / "usr/lib/systemd/system"
@@ -132,7 +132,7 @@ class Packages(unittest.TestCase):
             self.assertIn(program, owners)
             self.assertIn(owners[program], {None} | self.depends("frustumscreen"), program)
 
-    def test_what_curators_are_told_to_use_is_there(self):
+    def test_programs_of_the_curators_page_exist(self):
         page = (SOURCE / "docs/curators.md").read_text()
         named = set(re.findall(r"^(frustumscreen(?:-[a-z]+)?) ", page, re.MULTILINE))
         self.assertGreater(len(named), 5)
@@ -149,7 +149,7 @@ class Packages(unittest.TestCase):
                     said = run("man", "--warnings", "--local-file", manual, env={**os.environ, "MANWIDTH": "80"})
                     self.assertIn(program.name, said)
 
-    def test_nothing_is_enabled(self):
+    def test_no_unit_is_enabled(self):
         self.assertFalse([file for file in self.files["frustumscreen"] if ".wants/" in file])
 
     def script(self, name, *arguments):
@@ -181,12 +181,12 @@ class Packages(unittest.TestCase):
                         asked.index("systemd-tmpfiles --create frustumscreen.conf"))
         self.assertFalse([line for line in asked if line.startswith("deb-systemd-invoke")])
 
-    def test_an_update_starts_again_what_runs(self):
+    def test_an_update_restarts_running_units(self):
         asked = [line for line in self.script("postinst", "configure", "0.0.1") if line.startswith("deb-systemd-invoke")]
         self.assertEqual(asked, [f"deb-systemd-invoke try-restart {unit}.service"
                                  for unit in ("frustumscreen-watchdog", "frustumscreen", "frustumscreen-safe")])
 
-    def test_a_removal_stops_first_who_would_start_the_exhibit_again(self):
+    def test_a_removal_first_stops_units_that_restart_the_exhibit(self):
         asked = self.script("prerm", "remove")
         stopped = [unit for line in asked if line.startswith("deb-systemd-invoke stop") for unit in line.split()[2:]]
         # The calibration's end brings the exhibit and its watchdog back, and the watchdog the exhibit.
@@ -195,7 +195,7 @@ class Packages(unittest.TestCase):
         self.assertEqual(asked[-1], "deb-systemd-invoke start getty@tty1.service")
         self.assertEqual(self.script("prerm", "upgrade", "0.2"), [])
 
-    def test_same_bytes_again(self):
+    def test_packages_are_reproducible(self):
         """The packages are the same when packed with another umask and another time zone."""
         again = pack(pathlib.Path(self.folder.name) / "again", 0o077, "Pacific/Auckland")
         for name, deb in self.debs.items():

@@ -49,11 +49,11 @@ class PressedScript:
         """Runs the script."""
         raise NotImplementedError
 
-    def test_a_button_without_a_stick_that_waits(self):
+    def test_ignores_a_button_without_a_waiting_stick(self):
         self.asked.unlink()
         self.assert_nothing_done()
 
-    def test_a_button_long_after_the_stick(self):
+    def test_ignores_a_button_long_after_the_stick(self):
         old = time.time() - 16 * 60
         os.utime(self.asked, (old, old))
         self.assert_nothing_done()

@@ -45,7 +45,7 @@ class Provenance(unittest.TestCase):
         return subprocess.run([TOOLS / "keep_provenance.py", self.work / "kept", "--compiled-in", self.work / "list", "--tree",
                                f"debian={self.tree}"], capture_output=True, text=True)
 
-    def test_a_package_is_entered_with_all_that_it_has(self):
+    def test_records_a_package_with_its_files(self):
         listed = subprocess.run(["dpkg-deb", "-c", self.deb], check=True, capture_output=True, text=True).stdout
         names = {line.split()[5].removeprefix("./").rstrip("/") for line in listed.splitlines()} - {"", "lib"}
         self.assertEqual(self.keep().returncode, 0)
@@ -56,7 +56,7 @@ class Provenance(unittest.TestCase):
         self.assertEqual(frog.inside, (("glibc", "2.36-9"), ("pond", "1~1")))
         self.assertEqual(frog.summary, "a frog")
 
-    def test_a_copyright_file_is_kept_through_links_that_stay_in_the_tree(self):
+    def test_follows_links_to_copyright_files_inside_the_tree(self):
         doc = self.tree / "usr/share/doc"
         (doc / "toad").symlink_to("frog")
         (doc / "newt").mkdir()
@@ -66,7 +66,7 @@ class Provenance(unittest.TestCase):
         self.assertEqual((kept / "toad/copyright").read_text(), "frogs are free\n")
         self.assertFalse((kept / "newt/copyright").exists())
 
-    def test_what_is_compiled_in_must_be_installed(self):
+    def test_compiled_in_packages_must_be_installed(self):
         done = self.keep("libc6", "libfrog-dev")
         self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
         self.assertIn("libfrog-dev", done.stderr)

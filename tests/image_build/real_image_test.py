@@ -75,7 +75,7 @@ class RealImage(unittest.TestCase):
                 if data[:4] == b"\x7fELF":
                     self.assertNotEqual(component, MADE, name)
 
-    def test_the_versions_are_those_that_were_taken(self):
+    def test_versions_match_the_package_list(self):
         taken = {line.split()[0]: line.split()[1] for line in (OUT / "packages.txt").read_text().splitlines()}
         debian = {component["name"]: component["version"] for component in self.bill["components"]
                   if component.get("purl", "").startswith("pkg:deb/") and component.get("components")}
@@ -90,13 +90,13 @@ class RealImage(unittest.TestCase):
                 (place,) = [row["value"] for row in component["properties"] if row["name"] == "frustumscreen:licence_text"]
                 self.assertGreater(len(texts[place]), 100, component["name"])
 
-    def test_licence_expressions_are_of_spdx(self):
+    def test_licence_expressions_are_known_to_spdx(self):
         for component in self.bill["components"]:
             for licence in component.get("licenses", []):
                 text = licence.get("expression") or licence["license"]["id"]
                 self.assertEqual(spdx_list.unknown_of(text), [], component["name"])
 
-    def test_the_bill_follows_the_schema(self):
+    def test_sbom_matches_the_schema(self):
         self.assertEqual(spdx_list.schema_errors(self.bill), [])
 
 

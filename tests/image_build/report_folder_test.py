@@ -101,7 +101,7 @@ class ReportFolder(unittest.TestCase):
         self.assertEqual([line.split()[0] for line in mounted], ["frustumscreen-stick/stick1"])
         self.assertRegex(mounted[0], " ro,")
 
-    def test_the_new_folder_alone_can_be_written(self):
+    def test_only_the_new_folder_is_writable(self):
         status, mounted, after = self.run_in(
             f"touch {REQUEST}; echo mine >mine.txt",
             """cd run
@@ -123,11 +123,11 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
         self.assertEqual(lines[-5:], ["./frustumscreen-report-2031-05-04-120000/status.txt", f"./{REQUEST}", "./mine.txt", "mine", "status"])
         self.assertIsNone(self.told())
 
-    def test_a_folder_without_a_report_goes_again(self):
+    def test_removes_a_folder_without_a_report(self):
         _, _, after = self.run_in(f"touch {REQUEST}", '"$3" close stick1; cd run/frustumscreen-stick/stick1 && ls; touch no 2>/dev/null || echo read-only')
         self.assertEqual(after.split(), [REQUEST, "read-only"])
 
-    def test_the_same_second_again(self):
+    def test_numbers_folders_of_the_same_second(self):
         _, _, after = self.run_in(f"touch {REQUEST}; mkdir frustumscreen-report-2031-05-04-120000; touch frustumscreen-report-2031-05-04-120000-2",
                                   "cat run/frustumscreen-report/stick1.name")
         self.assertEqual(after.strip(), "NAME=frustumscreen-report-2031-05-04-120000-3")
@@ -153,7 +153,7 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
         self.assertEqual((status, after.strip()), (0, "NAME=frustumscreen-report-2031-05-04-120000"), "a report goes to any stick")
         self.assertFalse((self.top / CONFIRMED).exists())
 
-    def test_the_staff_confirm_once(self):
+    def test_a_confirmation_counts_once(self):
         self.confirm()
         status, _, after = self.run_in(f"touch {COPY} {REQUEST}", f'cat run/frustumscreen-report/stick1.name {CONFIRMED}; "$3" close stick1')
         self.assertEqual((status, after.split()), (0, ["NAME=frustumscreen-1a2b3c-2031-05-04-120000", "CONFIRMED=--confirmed"]))
@@ -161,13 +161,13 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
         self.assert_left_alone(*self.run_in(f"touch {COPY}")[:2])
         self.assertFalse((self.top / CONFIRMED).exists(), "it is over")
 
-    def test_an_empty_request_with_a_signature_waits_for_nobody(self):
+    def test_a_signed_empty_request_needs_no_confirmation(self):
         for more in (f"touch {COPY}.minisig", f"ln -s {COPY} {COPY}.minisig"):
             with self.subTest(more):
                 status, _, after = self.run_in(f"touch {COPY}; {more}", 'cat run/frustumscreen-report/stick1.name; "$3" close stick1')
                 self.assertEqual((status, after.strip()), (0, "NAME=frustumscreen-1a2b3c-2031-05-04-120000"))
 
-    def test_what_is_in_the_way_is_told_before_the_staff_confirm(self):
+    def test_reports_write_protection_before_the_confirmation(self):
         self.write("sys/class/block/sda1/ro", b"1\n")
         for confirmed in (False, True):
             with self.subTest(confirmed=confirmed):
@@ -176,14 +176,14 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
                 self.assert_left_alone(*self.run_in(f"touch {COPY}")[:2])
                 self.assertIn("write-protected", self.told(COPY)[1])
 
-    def test_sticks_that_ask_for_nothing(self):
+    def test_ignores_sticks_without_a_valid_request(self):
         for files in ("true", f"mkdir {REQUEST}", f"ln -s mine {REQUEST}; touch mine", f"head -c 4097 /dev/zero >{REQUEST}", "touch frustumscreen-report.toml.txt",
                       f"ln -s mine {COPY}; touch mine", f"head -c 4097 /dev/zero >{COPY}"):
             with self.subTest(files):
                 self.assert_left_alone(*self.run_in(files)[:2])
                 self.assertIsNone(self.told())
 
-    def test_a_request_that_is_full_to_its_limit(self):
+    def test_accepts_a_request_of_the_largest_size(self):
         self.assertEqual(self.run_in(f"head -c 4096 /dev/zero >{REQUEST}")[0], 0)
 
     def test_other_file_systems(self):
@@ -211,13 +211,13 @@ cd frustumscreen-stick/stick1 && find . -type f | LC_ALL=C sort && cat mine.txt 
                     self.assert_left_alone(status, mounted)
                     self.assertIn("pulled out of a computer too early", self.told()[1])
 
-    def test_full(self):
+    def test_reports_a_full_stick(self):
         # A tmpfs with few inodes has none left.
         status, mounted, _ = self.run_in(f"touch {REQUEST}; mount -o remount,nr_inodes=2 .")
         self.assert_left_alone(status, mounted)
         self.assertEqual(self.told()[0], "no_room")
 
-    def test_it_does_not_become_writable(self):
+    def test_reports_a_stick_that_stays_read_only(self):
         self.write("bin/mount", b'#!/bin/sh\ncase $* in *remount,rw*) exit 32 ;; esac\nexec /usr/bin/mount "$@"\n')
         (self.top / "bin/mount").chmod(0o755)
         self.assert_left_alone(*self.run_in(f"touch {REQUEST}")[:2])

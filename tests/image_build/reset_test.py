@@ -34,7 +34,7 @@ class Reset(PressedScript, unittest.TestCase):
     def there(self, names):
         return {name for name in names if (self.top / name).exists()}
 
-    def test_both(self):
+    def test_acts_after_mark_and_button(self):
         asked = self.reset()
         self.assertEqual([line.split()[0] for line in asked], ["stop", "--no-block"])
         self.assertEqual(asked[-1], "--no-block reboot")
@@ -52,7 +52,7 @@ class Reset(PressedScript, unittest.TestCase):
         self.assertEqual(self.there(OWN), set(OWN))
         self.assertEqual((self.top / SETTINGS).read_text(encoding="ascii"), "own")
 
-    def test_interrupted_the_key_guards_the_kiosk(self):
+    def test_an_interrupted_reset_can_be_repeated(self):
         self.write_program("cp", "exit 1")
         with self.assertRaises(subprocess.CalledProcessError):
             self.reset()

@@ -40,7 +40,7 @@ class Build(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(dir=CHECKOUT / "build")))
 
-    @long  # test_what_is_shipped_is_what_is_started compares two builds for each change
+    @long  # test_shipped_disk_equals_a_plain_build compares two builds for each change
     def test_two_builds_are_the_same(self):
         done = build("--test", "--out", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -49,7 +49,7 @@ class Build(unittest.TestCase):
         for name in ("sbom.json", "licences.tar", "why.txt"):
             self.assertTrue(filecmp.cmp(IMAGE.with_name(name), again.with_name(name), shallow=False), name)
 
-    def test_what_is_shipped_is_what_is_started(self):
+    def test_shipped_disk_equals_a_plain_build(self):
         """The disk as_shipped equals a build without --test, byte for byte."""
         done = build("--out", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -57,7 +57,7 @@ class Build(unittest.TestCase):
         self.assertTrue(filecmp.cmp(as_shipped, self.folder / IMAGE.name, shallow=False), f"{as_shipped} and a second build of it differ")
         self.assertTrue(filecmp.cmp(IMAGE.with_name("packages.txt"), self.folder / "packages.txt", shallow=False))
 
-    def test_versions_that_debian_does_not_have(self):
+    def test_names_versions_that_debian_lacks(self):
         """Missing versions are named, each with Debian's version, before packages are installed; the order of the list does not matter.
         Debian may also have newer versions of other packages."""
         listed = [line for line in reversed(self.listed()) if not line.startswith("zlib1g ")]
@@ -71,7 +71,7 @@ class Build(unittest.TestCase):
             self.assertNotEqual(version, there, refused)
 
     @long
-    def test_packages_that_the_list_lacks(self):
+    def test_names_packages_that_the_list_lacks(self):
         """Debian installs a package that the list does not have, as when a new version depends on another package."""
         (zlib,) = (line for line in self.listed() if line.startswith("zlib1g "))
         refused = self.refused_by_debian([line for line in self.listed() if line != zlib])
@@ -107,7 +107,7 @@ class Build(unittest.TestCase):
         kernel = next(disks[0].parent.glob("*.efi"))
         subprocess.run(["sbverify", "--cert", keys / "db.crt", kernel], check=True, capture_output=True)
 
-    def test_wrong_use_is_one_sentence(self):
+    def test_reports_wrong_use_in_one_line(self):
         for options, status, words in ((["--keys", "/nowhere"], 1, "db.key"), (["--frimware", "amd"], 2, "--help"),
                                        (["--firmware", "arm"], 2, "amd"), (["--version", "new"], 2, "digit"),
                                        (["--keys"], 2, "value"), (["--data", "big"], 2, "160M"), (["--packages", "/nowhere"], 1, "/nowhere")):

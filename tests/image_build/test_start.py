@@ -58,7 +58,7 @@ class Start(ImageTest):
         self.pc.wait_until_lit()
 
     @long
-    def test_nothing_of_the_system_lies_on_the_table(self):
+    def test_no_system_output_appears_on_the_table(self):
         """From the command to restart until the reset, each picture is the exhibit's or dark."""
         self.start()
         self.pc.may_start_anew()
@@ -73,7 +73,7 @@ class Start(ImageTest):
         self.assertGreater(looks, 5)
 
     @long
-    def test_two_kiosks_are_not_the_same(self):
+    def test_two_kiosks_have_different_identities(self):
         """A kiosk makes its own keys at its first start; the image contains no key that two kiosks would share."""
         own = ("cat /etc/machine-id", "cat /proc/sys/kernel/hostname", "sha256sum /var/lib/systemd/random-seed")
 

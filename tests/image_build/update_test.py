@@ -81,11 +81,11 @@ class Update(unittest.TestCase):
             self.assertRegex(pack["reason"], r"^[^.!]*[^.!\s]$|[0-9]\.[0-9]")
         return {pack["file"].removesuffix(".raucb"): (pack["outcome"], pack["refusal"], pack["reason"]) for pack in report["packs"]}
 
-    def test_a_stick_without_updates_is_the_importers_alone(self):
+    def test_ignores_a_stick_without_updates(self):
         self.assertIsNone(self.put_in())
         self.assertFalse(any((self.root / "run/frustumscreen-import").iterdir()))
 
-    def test_damaged_ones(self):
+    def test_rejects_damaged_bundles(self):
         whole = self.bundles["1.3.0"]
         said = self.put_in(cut=whole[:len(whole) // 2], empty=b"", words=b"hello", signature=whole[:-100] + bytes([whole[-100] ^ 1]) + whole[-99:])
         for name in ("cut", "empty", "words"):
@@ -93,30 +93,30 @@ class Update(unittest.TestCase):
             self.assertIn("cut off or damaged", said[name][2])
         self.assertEqual(said["signature"][0], "refused")
 
-    def test_another_key_and_none(self):
+    def test_rejects_another_key_and_a_missing_keyring(self):
         self.write("etc/rauc/keyring.pem", (self.made / "theirs.crt").read_bytes())
         self.assertEqual(self.put_in(new=self.bundles["1.3.0"])["new"][:2], ("refused", "wrong_key"))
         (self.root / "etc/rauc/keyring.pem").unlink()
         self.assertIn("takes no updates", self.put_in()["new"][2])
 
-    def test_the_same_version_and_an_older_one(self):
+    def test_refuses_the_same_and_older_versions(self):
         self.assertEqual(self.put_in(same=self.bundles["1.2.0"])["same"], ("already_there", "none", "this version runs already"))
         self.write("run/frustumscreen-boot/version", "1.9.0\n")
         self.assertEqual(self.put_in()["same"][:2], ("refused", "older"))
 
-    def test_of_several_the_newest_is_taken(self):
+    def test_takes_the_newest_of_several(self):
         said = self.put_in(a=self.bundles["1.10.0"], b=self.bundles["1.3.0"])
         self.assertEqual(said["b"][:2], ("refused", "older"))
         self.assertEqual(said["a"][1], "unwritable")  # there is no disk here
 
-    def test_one_that_was_tried_and_one_that_waits(self):
+    def test_refuses_a_version_that_was_tried_or_waits(self):
         self.image("1.3.0+0-3", "bb" * 32)
         self.assertIn("was tried here and did not start", self.put_in(new=self.bundles["1.3.0"])["new"][2])
         (self.root / "efi/EFI/Linux/frustumscreen_1.3.0+0-3.efi").unlink()
         self.image("1.3.0+3", "bb" * 32)
         self.assertEqual(self.put_in()["new"][0], "already_there")
 
-    def test_a_version_that_is_new_itself_keeps_the_one_before(self):
+    def test_refuses_updates_while_the_running_version_is_unproved(self):
         (self.root / "efi/EFI/Linux/frustumscreen_1.2.0+5.efi").rename(self.root / "efi/EFI/Linux/frustumscreen_1.2.0+2-1.efi")
         self.assertIn("has itself not shown yet", self.put_in(new=self.bundles["1.3.0"])["new"][2])
 

@@ -7,7 +7,7 @@ namespace {
 
 using namespace testing_copy;
 
-TEST_F(CopyProgram, ANewDiskIsAsTheOldOneWas) {
+TEST_F(CopyProgram, CopiesEverythingToANewKiosk) {
     ask(everything);
     ASSERT_EQ(report_of_a(), 0) << text("err.txt");
     EXPECT_EQ(names_in(place), (std::set<std::string>{"settings.toml", "calibration.toml", "counts.csv",
@@ -37,7 +37,7 @@ TEST_F(CopyProgram, ANewDiskIsAsTheOldOneWas) {
     }
 }
 
-TEST_F(CopyProgram, AnotherProgramReadsTheFileAndWritesOne) {
+TEST_F(CopyProgram, ArchiveIsCompatibleWithPythonZipfile) {
     ask("what = [\"settings\", \"counts\"]\nuntil = \"2999-12-31\"\n");
     ASSERT_EQ(report_of_a(), 0) << text("err.txt");
     put("read.py",
@@ -57,7 +57,7 @@ TEST_F(CopyProgram, AnotherProgramReadsTheFileAndWritesOne) {
     EXPECT_EQ(text("b/kiosk.toml"), text("a/kiosk.toml"));
 }
 
-TEST_F(CopyProgram, WithoutASignatureNothingIsGivenAway) {
+TEST_F(CopyProgram, RejectsAnUnsignedRequest) {
     put("stick/frustumscreen-request.toml", everything);
     EXPECT_EQ(report_of_a(), 1);
     EXPECT_FALSE(std::filesystem::exists(folder / place));
@@ -74,7 +74,7 @@ TEST_F(CopyProgram, WithoutASignatureNothingIsGivenAway) {
     EXPECT_EQ(names_in(place).count("status.txt"), 1U);
 }
 
-TEST_F(CopyProgram, AReportAndACopyAreInOneFolder) {
+TEST_F(CopyProgram, WritesReportAndCopyIntoOneFolder) {
     ask(everything);
     put("stick/frustumscreen-report.toml", "");
     EXPECT_EQ(report_of_a(), 0) << text("err.txt");
@@ -85,7 +85,7 @@ TEST_F(CopyProgram, AReportAndACopyAreInOneFolder) {
     EXPECT_EQ(import_into("a").at(0).outcome, library::ImportOutcome::Written);
 }
 
-TEST_F(CopyProgram, DamagedSettingsAreNoObstacleToAReport) {
+TEST_F(CopyProgram, DamagedSettingsAllowAReportButNoCopy) {
     put("a/kiosk.toml", "[table\n");
     put("stick/frustumscreen-report.toml", "");
     EXPECT_EQ(report_of_a(), 0) << text("err.txt");
@@ -96,7 +96,7 @@ TEST_F(CopyProgram, DamagedSettingsAreNoObstacleToAReport) {
     EXPECT_EQ(names_in(place).count("kiosk.fsk"), 0U);
 }
 
-TEST_F(CopyProgram, AKioskThatWasInterruptedSaysSo) {
+TEST_F(CopyProgram, ReportsAnInterruptedCopy) {
     ask(everything);
     const std::vector<library::ImportedPack> told = import_into("a");
     ASSERT_EQ(told.size(), 1U);
@@ -104,7 +104,7 @@ TEST_F(CopyProgram, AKioskThatWasInterruptedSaysSo) {
     EXPECT_NE(told[0].reason.find("stopped before"), std::string::npos) << told[0].reason;
 }
 
-TEST_F(CopyProgram, TheStateOfDeliveryWaitsForTheStaff) {
+TEST_F(CopyProgram, FactoryResetWaitsForTheStaff) {
     ask("reset = true\nuntil = \"2999-12-31\"\n");
     EXPECT_EQ(report_of_a(), 0) << "nothing is to be written";
     EXPECT_FALSE(std::filesystem::exists(folder / place));
@@ -117,7 +117,7 @@ TEST_F(CopyProgram, TheStateOfDeliveryWaitsForTheStaff) {
         << "nothing is done yet";
 }
 
-TEST_F(CopyProgram, TheStateOfDeliveryNeedsASignature) {
+TEST_F(CopyProgram, FactoryResetNeedsAValidSignedRequest) {
     put("stick/frustumscreen-request.toml", "reset = true\nuntil = \"2999-12-31\"\n");
     EXPECT_EQ(report_of_a(), 1);
     EXPECT_EQ(import_into("a").at(0).outcome, library::ImportOutcome::NotWritten);
@@ -128,7 +128,7 @@ TEST_F(CopyProgram, TheStateOfDeliveryNeedsASignature) {
     EXPECT_FALSE(std::filesystem::exists(folder / "report/reset-asked"));
 }
 
-TEST_F(CopyProgram, NearlyRightNamesAreTold) {
+TEST_F(CopyProgram, SuggestsTheCorrectFileNames) {
     put("stick/Frustumscreen-Request.toml.txt", everything);
     put("stick/kiosk (1).fsk", "");
     put("stick/kiosk.fsk.minisig", "");
@@ -139,7 +139,7 @@ TEST_F(CopyProgram, NearlyRightNamesAreTold) {
     EXPECT_NE(told[1].reason.find("kiosk.fsk"), std::string::npos) << told[1].reason;
 }
 
-TEST_F(CopyProgram, WhatTheKioskWouldRefuseIsNotSigned) {
+TEST_F(CopyProgram, DoesNotSignInvalidFiles) {
     put("frustumscreen-request.toml", "what = [\"all\"]\n");
     EXPECT_EQ(run("frustumscreen-pack sign frustumscreen-request.toml --key museum.key"), 1);
     put("kiosk.fsk", "no archive");

@@ -20,7 +20,7 @@ std::string fault_of(const std::string& text) {
     return request ? "" : std::string(request.error().id.view());
 }
 
-TEST(CopyRequest, NamesWhatIsWanted) {
+TEST(CopyRequest, ParsesTheRequestedParts) {
     const Result<CopyRequest> request = parse_copy_request(good);
     ASSERT_TRUE(request) << request.error().message;
     EXPECT_TRUE(request->settings && request->packs && !request->calibration && !request->counts);
@@ -36,7 +36,7 @@ TEST(CopyRequest, NamesWhatIsWanted) {
     EXPECT_TRUE(all->settings && all->packs && all->calibration && all->counts);
 }
 
-TEST(CopyRequest, SaysWhatIsWrong) {
+TEST(CopyRequest, RejectsInvalidRequests) {
     EXPECT_EQ(fault_of("until = \"2024-10-10\"\n"), "copy_request.nothing");
     EXPECT_EQ(fault_of("what = []\nuntil = \"2024-10-10\"\n"), "copy_request.nothing");
     EXPECT_EQ(fault_of("what = [\"everything\"]\nuntil = \"2024-10-10\"\n"), "copy_request.what");
@@ -69,13 +69,13 @@ protected:
     std::vector<pack::TrustedKey> keys{{"Museum", key.public_key(), std::nullopt}};
 };
 
-TEST_F(SignedRequest, NoneIsNoFault) {
+TEST_F(SignedRequest, MissingRequestIsNoError) {
     const auto request = read_copy_request(stick, keys, "frustumscreen-1a2b3c", first_day);
     ASSERT_TRUE(request);
     EXPECT_FALSE(*request);
 }
 
-TEST_F(SignedRequest, CountsOnlyIfOneOfTheKiosksKeysSignedIt) {
+TEST_F(SignedRequest, IsValidOnlyIfSignedByATrustedKey) {
     sign(good, key);
     EXPECT_EQ(refusal(), std::nullopt);
     sign(good, other);
@@ -92,14 +92,14 @@ TEST_F(SignedRequest, CountsOnlyIfOneOfTheKiosksKeysSignedIt) {
     EXPECT_EQ(refusal(), library::ImportRefusal::WrongKey) << "a kiosk without a key gives nothing away";
 }
 
-TEST_F(SignedRequest, CountsUntilItsLastDay) {
+TEST_F(SignedRequest, IsValidUntilItsLastDay) {
     sign(good, key);
     const std::chrono::sys_days last = std::chrono::year(2024) / 10 / 10;
     EXPECT_EQ(refusal(last), std::nullopt);
     EXPECT_EQ(refusal(last + std::chrono::days(1)), library::ImportRefusal::Older);
 }
 
-TEST_F(SignedRequest, CountsForTheMachineThatItNames) {
+TEST_F(SignedRequest, IsValidOnlyForTheNamedMachine) {
     sign(good + "machine = \"frustumscreen-1a2b3c\"\n", key);
     EXPECT_EQ(refusal(), std::nullopt);
     sign(good + "machine = \"frustumscreen-000000\"\n", key);
@@ -107,7 +107,7 @@ TEST_F(SignedRequest, CountsForTheMachineThatItNames) {
 }
 
 /// An empty one asks for nothing by itself, nor for what a signature would: it waits for the staff's buttons.
-TEST_F(SignedRequest, AnEmptyOneWithoutASignatureWaitsForTheStaff) {
+TEST_F(SignedRequest, EmptyUnsignedRequestWaitsForTheStaff) {
     const std::string name(library::copy_request_name);
     EXPECT_FALSE(library::waits_for_staff(stick)) << "there is none";
     stick.put(name, "");
@@ -129,7 +129,7 @@ TEST_F(SignedRequest, AnEmptyOneWithoutASignatureWaitsForTheStaff) {
     EXPECT_FALSE(all.reset) << "the state of delivery needs a signature too";
 }
 
-TEST_F(SignedRequest, IsNotParsedBeforeItsSignatureIsRight) {
+TEST_F(SignedRequest, IsParsedOnlyAfterItsSignatureIsVerified) {
     sign("what = [\n", key);
     EXPECT_EQ(refusal(), library::ImportRefusal::NotAPack);
     sign("what = [\n", other);

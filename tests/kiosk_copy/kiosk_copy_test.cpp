@@ -35,7 +35,7 @@ std::string id_of(const Bytes& bytes) {
     return copy ? "" : std::string(copy.error().id.view());
 }
 
-TEST(KioskCopy, IsReadAsItWasWritten) {
+TEST(KioskCopy, RoundTrip) {
     const KioskCopy copy = whole();
     const Result<Bytes> bytes = write_kiosk_copy(copy);
     ASSERT_TRUE(bytes);
@@ -47,7 +47,7 @@ TEST(KioskCopy, IsReadAsItWasWritten) {
     EXPECT_EQ(read->days, copy.days);
 }
 
-TEST(KioskCopy, HasOnlyWhatWasAskedFor) {
+TEST(KioskCopy, ContainsOnlyTheRequestedParts) {
     KioskCopy copy;
     copy.calibration = settings::calibration_text(calibration(9));
     const Result<KioskCopy> read = parse_kiosk_copy(write_kiosk_copy(copy).value());
@@ -72,7 +72,7 @@ TEST(KioskCopy, FourHundredDaysFit) {
     EXPECT_EQ(parse_kiosk_copy(*bytes)->days, copy.days);
 }
 
-TEST(KioskCopy, RefusesWhatIsNone) {
+TEST(KioskCopy, RejectsOtherArchivesAndOversizedFiles) {
     EXPECT_NE(id_of({}), "");
     EXPECT_EQ(id_of(archive({{"kiosk.toml", "[table]\n"}})), "kiosk_copy.format");
     EXPECT_EQ(id_of(archive({{"format.txt", "FrustumScreen kiosk copy 2\n"}})), "kiosk_copy.format");
@@ -92,7 +92,7 @@ TEST(KioskCopy, RefusesWhatIsNone) {
     EXPECT_EQ(id_of(archive(bomb)), "kiosk_copy.size");
 }
 
-TEST(KioskCopy, RefusesAFileThatTheExhibitWouldRefuse) {
+TEST(KioskCopy, RejectsInvalidContents) {
     EXPECT_NE(id_of(archive({{"format.txt", format_line}, {"kiosk.toml", "[table]\nwidht_m = 0.7\n"}})), "");
     EXPECT_NE(id_of(archive({{"format.txt", format_line}, {"calibration.toml", "version = 1\n"}})), "");
     EXPECT_NE(id_of(archive({{"format.txt", format_line}, {"counts/2024-10-04.json", "{}"}})), "");
@@ -101,7 +101,7 @@ TEST(KioskCopy, RefusesAFileThatTheExhibitWouldRefuse) {
               "kiosk_copy.day");
 }
 
-TEST(KioskCopy, RefusesEachCutAndMostChangedBytes) {
+TEST(KioskCopy, RejectsTruncatedFilesAndMostChangedBytes) {
     const Bytes bytes = write_kiosk_copy(whole()).value();
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         EXPECT_FALSE(parse_kiosk_copy(std::span(bytes).first(size))) << size;

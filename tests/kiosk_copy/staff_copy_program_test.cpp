@@ -18,7 +18,7 @@ protected:
     }
 };
 
-TEST_F(StaffCopy, NothingIsWrittenBeforeTheButton) {
+TEST_F(StaffCopy, WritesNothingBeforeConfirmation) {
     put("stick/frustumscreen-request.toml", "");
     EXPECT_EQ(report_of_a(), 0) << text("err.txt");
     EXPECT_FALSE(std::filesystem::exists(folder / place));
@@ -36,7 +36,7 @@ TEST_F(StaffCopy, NothingIsWrittenBeforeTheButton) {
     }
 }
 
-TEST_F(StaffCopy, TheButtonsAloneDoWhatASignatureDoes) {
+TEST_F(StaffCopy, ConfirmedCopyEqualsASignedOne) {
     put("stick/frustumscreen-request.toml", "");
     ASSERT_EQ(import_into("a", first).size(), 1U);
     ASSERT_EQ(report_of_a(" --confirmed"), 0) << text("err.txt");
@@ -59,7 +59,7 @@ TEST_F(StaffCopy, TheButtonsAloneDoWhatASignatureDoes) {
 }
 
 /// Comments may name people, and the signature does not allow them to leave the kiosk.
-TEST_F(StaffCopy, SettingsHaveTheSameValuesAndNoComments) {
+TEST_F(StaffCopy, SettingsKeepValuesButNoComments) {
     put("a/kiosk.toml", settings_of(museum.key, "[projector.mount] # Anna's ladder\nx_m = 0.1\ny_m = 0.7\n"
                                                 "height_m = 1.4285714285714286\n"));
     put("stick/frustumscreen-request.toml", "");
@@ -74,7 +74,7 @@ TEST_F(StaffCopy, SettingsHaveTheSameValuesAndNoComments) {
     EXPECT_EQ(shell("python3 read.py " + place), 0);
 }
 
-TEST_F(StaffCopy, AnotherKioskTakesItOnlySigned) {
+TEST_F(StaffCopy, KioskWithAKeyAcceptsTheCopyOnlySigned) {
     put("stick/frustumscreen-request.toml", "");
     ASSERT_EQ(report_of_a(" --confirmed"), 0) << text("err.txt");
     std::filesystem::remove(folder / "stick/frustumscreen-request.toml");
@@ -89,7 +89,7 @@ TEST_F(StaffCopy, AnotherKioskTakesItOnlySigned) {
 }
 
 /// The buttons confirm an empty request, and no other one.
-TEST_F(StaffCopy, AButtonIsNoSignature) {
+TEST_F(StaffCopy, ConfirmsOnlyAnEmptyRequest) {
     for (const std::string& request : {everything, std::string("\n"), std::string("reset = true\n")}) {
         put("stick/frustumscreen-request.toml", request);
         EXPECT_EQ(report_of_a(" --confirmed"), 1) << request;
@@ -102,7 +102,7 @@ TEST_F(StaffCopy, AButtonIsNoSignature) {
     }
 }
 
-TEST_F(StaffCopy, AKioskWithoutAKeyAndOneWithDamagedSettings) {
+TEST_F(StaffCopy, WorksWithoutAKeyButNotWithDamagedSettings) {
     put("a/kiosk.toml", shipped);
     put("stick/frustumscreen-request.toml", "");
     ASSERT_EQ(report_of_a(" --confirmed"), 0) << text("err.txt");
@@ -114,7 +114,7 @@ TEST_F(StaffCopy, AKioskWithoutAKeyAndOneWithDamagedSettings) {
     EXPECT_FALSE(std::filesystem::exists(folder / place));
 }
 
-TEST_F(StaffCopy, WhatCannotBeWrittenIsNotOffered) {
+TEST_F(StaffCopy, IsNotOfferedForAnUnwritableStick) {
     put("stick/frustumscreen-request.toml", "");
     library::ImportReport protected_stick;
     protected_stick.stage = library::ImportStage::Done;
@@ -133,7 +133,7 @@ TEST_F(StaffCopy, WhatCannotBeWrittenIsNotOffered) {
         << "the writer left no word";
 }
 
-TEST_F(StaffCopy, AKioskThatWritesToNoStickOffersNothing) {
+TEST_F(StaffCopy, IsNotOfferedIfTheKioskWritesNoSticks) {
     put("stick/frustumscreen-request.toml", "");
     EXPECT_EQ(run("frustumscreen-import --from stick --into a/library --config a/kiosk.toml --report "
                   "report/report.json"),

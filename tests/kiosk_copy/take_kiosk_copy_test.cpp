@@ -55,7 +55,7 @@ protected:
         settings_of(key), settings::calibration_text(calibration(9)), {day(first_day, 3), day(today, 5)}};
 };
 
-TEST_F(TakeKioskCopy, ANewDiskTakesAllOfIt) {
+TEST_F(TakeKioskCopy, NewDiskTakesEverything) {
     put_on_stick(copy, 50, key);
     const library::ImportedPack told = take();
     EXPECT_EQ(told.outcome, library::ImportOutcome::Taken) << told.reason;
@@ -70,7 +70,7 @@ TEST_F(TakeKioskCopy, ANewDiskTakesAllOfIt) {
     EXPECT_EQ(settings::list_calibrations(calibrations)->size(), 1U);
 }
 
-TEST_F(TakeKioskCopy, AKioskWithAKeyTakesOnlyWhatThisHasSigned) {
+TEST_F(TakeKioskCopy, RejectsCopiesNotSignedByItsKey) {
     settings.put("kiosk.toml", settings_of(key, "[table]\nwidth_m = 0.8\n"));
     settings.put("kiosk.toml.serial", "50\n");
     put_on_stick(copy, 60, other);
@@ -85,14 +85,14 @@ TEST_F(TakeKioskCopy, AKioskWithAKeyTakesOnlyWhatThisHasSigned) {
     EXPECT_EQ(take().outcome, library::ImportOutcome::Taken);
 }
 
-TEST_F(TakeKioskCopy, WhatTheKioskCountedItselfStays) {
+TEST_F(TakeKioskCopy, KeepsTheKiosksOwnCounts) {
     ASSERT_TRUE(counts::keep_day(folder / "counts", day(first_day, 8)));
     put_on_stick(copy, 1, key);
     EXPECT_EQ(take().outcome, library::ImportOutcome::Taken);
     EXPECT_EQ(visits(first_day), 8U);
 }
 
-TEST_F(TakeKioskCopy, ADamagedCopyChangesNothing) {
+TEST_F(TakeKioskCopy, DamagedCopyChangesNothing) {
     Bytes bytes = write_kiosk_copy(copy).value();
     bytes.resize(bytes.size() - 1);
     stick.put(std::string(library::kiosk_copy_name), bytes);
@@ -107,7 +107,7 @@ TEST_F(TakeKioskCopy, ADamagedCopyChangesNothing) {
     EXPECT_EQ(visits(first_day), 0U);
 }
 
-TEST_F(TakeKioskCopy, ThePriorCalibrationIsKept) {
+TEST_F(TakeKioskCopy, KeepsThePriorCalibration) {
     ASSERT_TRUE(settings::keep_calibration(calibrations, calibration(4)));
     put_on_stick(copy, 1, key);
     EXPECT_EQ(take().outcome, library::ImportOutcome::Taken);
@@ -116,7 +116,7 @@ TEST_F(TakeKioskCopy, ThePriorCalibrationIsKept) {
     EXPECT_EQ(places(), 4);
 }
 
-TEST_F(TakeKioskCopy, AFullDiskIsToldWithWhatWasTakenBefore) {
+TEST_F(TakeKioskCopy, ReportsAFullDiskAndThePartsTakenBefore) {
     put_on_stick(copy, 1, key);
     calibrations.plan = {.fail_from = 0, .error = ENOSPC};
     const library::ImportedPack told = take();
@@ -128,7 +128,7 @@ TEST_F(TakeKioskCopy, AFullDiskIsToldWithWhatWasTakenBefore) {
     EXPECT_EQ(text_of(settings, "kiosk.toml"), copy.settings);
 }
 
-TEST_F(TakeKioskCopy, AfterEachPowerCutEachThingIsTheOldOrTheNewOne) {
+TEST_F(TakeKioskCopy, PowerCutLeavesTheOldOrTheNewFiles) {
     put_on_stick(copy, 50, key);
     const auto settings_before = settings.copy();
     ASSERT_EQ(take().outcome, library::ImportOutcome::Taken);

@@ -45,7 +45,7 @@ std::vector<std::string> files_below(const std::string& folder, const std::set<s
 }
 
 /// Sources of tests do not count: two that are never linked together may each have a Box.
-TEST(OneDefinition, HoldsInTheHouse) {
+TEST(OneDefinition, HasNoViolationsInTheRepository) {
     std::vector<std::string> files = files_below("tests", {".h"});
     for (const std::string folder : {"app", "firmware_host", "assets_baked"}) {
         const std::vector<std::string> more = files_below(folder, {".h", ".cpp"});
@@ -61,7 +61,7 @@ TEST(OneDefinition, HoldsInTheHouse) {
     EXPECT_EQ(definitions.violations(), Names());
 }
 
-TEST(OneDefinition, TwoFilesWithOneNameAreNamed) {
+TEST(OneDefinition, NamesTwoFilesThatDefineTheSameName) {
     EXPECT_EQ(
         violations_of("namespace a { struct Box { int x; }; }", "namespace a { enum class Box { Left }; }"),
         Names({"a::Box is defined in one.h other.cpp; rename all but one"}));
@@ -70,7 +70,7 @@ TEST(OneDefinition, TwoFilesWithOneNameAreNamed) {
     EXPECT_EQ(violations_of("template <> struct a<int> {};", "template <> struct a<int> {};").size(), 1U);
 }
 
-TEST(OneDefinition, OtherNamespacesClassesAndArgumentsAreOtherTypes) {
+TEST(OneDefinition, DistinguishesNamespacesClassesAndArguments) {
     const std::string_view one = "namespace a { struct Box {}; }";
     EXPECT_EQ(violations_of(one, "namespace a::b { struct Box {}; }"), Names());
     EXPECT_EQ(
@@ -81,7 +81,7 @@ TEST(OneDefinition, OtherNamespacesClassesAndArgumentsAreOtherTypes) {
     EXPECT_EQ(violations_of("using Json = j::json;", "using Json = j::json;"), Names());
 }
 
-TEST(OneDefinition, EveryKindOfDefinitionIsSeen) {
+TEST(OneDefinition, FindsEveryKindOfDefinition) {
     EXPECT_EQ(
         names_in(
             "struct A {}; class B final : public A {}; union C {}; enum D { X }; enum class E : int { Y };"
@@ -95,7 +95,7 @@ TEST(OneDefinition, EveryKindOfDefinitionIsSeen) {
     EXPECT_EQ(names_in("template <std::array<int, 2> n> struct A<n> : Of<n> {};"), Names({"A<n>"}));
 }
 
-TEST(OneDefinition, NothingElseIsTakenForOne) {
+TEST(OneDefinition, IgnoresCodeThatDefinesNoType) {
     EXPECT_EQ(
         names_in("class A; enum class B : int; struct C made() { return {}; } struct D value{1};"
                  "template <class E> void f(E e) { struct F {}; } using namespace std; using std::array;"

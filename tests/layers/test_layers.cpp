@@ -165,7 +165,7 @@ const std::vector<Guard> guards = {
 
 } // namespace
 
-TEST(Layers, TheTableKnowsTheRooms) {
+TEST(Layers, TableContainsTheRooms) {
     const Table table = read_table();
     for (const std::string room : {"base", "geometry", "pack", "settings", "render", "bake", "artifacts"}) {
         EXPECT_TRUE(table.uses.contains(room)) << room;
@@ -191,7 +191,7 @@ TEST(Layers, EveryIncludeIsAllowedByTheTable) {
     }
 }
 
-TEST(Layers, QuotedIncludesAreNamedFromTheRoot) {
+TEST(Layers, QuotedIncludesAreRelativeToTheRoot) {
     for (const Include& include : includes_of_the_house()) {
         if (include.quoted) {
             EXPECT_TRUE(fs::exists(fs::path(frustumscreen::source_dir()) / include.header))
@@ -200,14 +200,14 @@ TEST(Layers, QuotedIncludesAreNamedFromTheRoot) {
     }
 }
 
-TEST(Layers, NothingOfTheHostIncludesTheExhibit) {
+TEST(Layers, HostDoesNotIncludeTheExhibit) {
     for (const Include& include : includes_below("firmware_host")) {
         EXPECT_FALSE(starts_with(include.header, "app/") || starts_with(include.header, "assets_baked/"))
             << include.file << ":" << include.line;
     }
 }
 
-TEST(Layers, NothingOfTheKioskUsesTheBake) {
+TEST(Layers, KioskDoesNotUseTheBake) {
     const Table table = read_table();
     for (const std::string room : {"geometry", "tracking", "pack", "settings", "scene", "exhibit", "render",
                                    "image", "show", "simulation"}) {
@@ -219,7 +219,7 @@ TEST(Layers, NothingOfTheKioskUsesTheBake) {
     }
 }
 
-TEST(Layers, TheKiosksProgramLinksNothingOfTheBake) {
+TEST(Layers, ProgramOfTheKioskLinksNoLibraryOfTheBake) {
     std::ifstream file(frustumscreen::bin_dir() + "/frustumscreen", std::ios::binary);
     if (!file) {
         GTEST_SKIP() << "the program frustumscreen is not built";
@@ -235,7 +235,7 @@ TEST(Layers, TheKiosksProgramLinksNothingOfTheBake) {
 }
 
 /// Only people sign, on their own computers: the kiosk's programs have no code for secret keys.
-TEST(Layers, NoProgramOfTheKioskHoldsSecretKeys) {
+TEST(Layers, ProgramsOfTheKioskHaveNoCodeForSecretKeys) {
     int looked_at = 0;
     for (const std::string program : {"frustumscreen", "frustumscreen-import", "frustumscreen-pack"}) {
         std::ifstream file(frustumscreen::bin_dir() + "/" + program, std::ios::binary);

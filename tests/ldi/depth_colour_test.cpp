@@ -15,7 +15,7 @@ namespace frustumscreen::ldi {
 namespace {
 
 /// A slanted plane whose red grows by 8 codes a pixel: a colour that stands half a pixel off is wrong by 4.
-TEST(LayerMerger, GivesADepthPixelTheColourOfItsOwnPlace) {
+TEST(LayerMerger, DepthPixelHasTheColourOfItsPosition) {
     constexpr double half_m = 0.1;
     constexpr int px = 24;
     TriangleWorld plane;

@@ -16,7 +16,7 @@
 namespace frustumscreen::ldi {
 namespace {
 
-TEST(DepthPicture, ProjectsAPointWhereItsRayPasses) {
+TEST(DepthPicture, ProjectsAPointOntoItsRay) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     for (int k = 0; k < 1000; ++k) {
@@ -114,7 +114,7 @@ Hit cast(const TriangleWorld& world, const PictureMap& map, double x, double y, 
     return nearest;
 }
 
-TEST(DepthPicture, EqualsARayCastOfEveryTriangleInHitDepthAndColour) {
+TEST(DepthPicture, MatchesARayCastInHitDepthAndColour) {
     TriangleRasterizer rasterizer;
     DepthPicture picture;
     std::mt19937 random(5);
@@ -156,7 +156,7 @@ TEST(DepthPicture, EqualsARayCastOfEveryTriangleInHitDepthAndColour) {
     EXPECT_LT(doubts, 8'000U);
 }
 
-TEST(DepthPicture, TrianglesWithACommonEdgeLeaveNoGapAndCoverNoPixelTwice) {
+TEST(DepthPicture, AdjacentTrianglesCoverEachPixelOnce) {
     // Rows of pixels' middles lie on edges; the larger sheets' triangles are cut.
     TriangleRasterizer rasterizer;
     std::mt19937 random(9);
@@ -205,7 +205,7 @@ TEST(DepthPicture, TrianglesWithACommonEdgeLeaveNoGapAndCoverNoPixelTwice) {
     EXPECT_EQ(pictures, 18U);
 }
 
-TEST(DepthPicture, ATriangleThroughTheEyesPlaneIsSeenAsARayCastSeesIt) {
+TEST(DepthPicture, ClipsATriangleThroughTheEyePlaneAsARayCastDoes) {
     TriangleRasterizer rasterizer;
     DepthPicture picture;
     std::mt19937 random(11);
@@ -237,7 +237,7 @@ TEST(DepthPicture, ATriangleThroughTheEyesPlaneIsSeenAsARayCastSeesIt) {
     EXPECT_GT(hits, 500U);
 }
 
-TEST(DepthPicture, HolesOfACutOutShowWhatIsBehind) {
+TEST(DepthPicture, CutOutHolesAreNotDrawn) {
     TriangleWorld world; // a square of two halves, of which the upper texel is a hole
     world.positions = {{-0.1F, -0.1F, 0.0F}, {0.1F, -0.1F, 0.0F}, {0.1F, 0.1F, 0.0F}, {-0.1F, 0.1F, 0.0F}};
     world.texture_places = {{0.0F, 0.75F}, {1.0F, 0.75F}, {1.0F, 0.25F}, {0.0F, 0.25F}};
@@ -257,7 +257,7 @@ TEST(DepthPicture, HolesOfACutOutShowWhatIsBehind) {
     }
 }
 
-TEST(DepthPicture, IndicesBeyondThePositionsAndCornersThatAreNotFiniteAreNotDrawn) {
+TEST(DepthPicture, SkipsInvalidIndicesAndNonFiniteCorners) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     TriangleWorld world;
@@ -269,7 +269,7 @@ TEST(DepthPicture, IndicesBeyondThePositionsAndCornersThatAreNotFiniteAreNotDraw
     EXPECT_EQ(std::count(picture.nearness.begin(), picture.nearness.end(), 0.0F), 16 * 16);
 }
 
-TEST(TriangleRasterizer, OfAOneSidedWorldShowsTheTrianglesThatFaceTheEye) {
+TEST(TriangleRasterizer, DrawsOnlyFrontFacesOfAOneSidedWorld) {
     for (unsigned seed = 0; seed < 4; ++seed) {
         TriangleWorld world = soup(seed, 300);
         const glm::dvec3 eye(0.1 * seed, -0.1, 0.5);

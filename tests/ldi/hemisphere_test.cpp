@@ -26,7 +26,7 @@ glm::dvec3 direction(double polar_rad, double azimuth_rad) {
             std::cos(polar_rad)};
 }
 
-TEST(Hemisphere, NinePatchesHaveEqualAreasWhichMakeTheCap) {
+TEST(Hemisphere, NinePatchesShareTheCapEqually) {
     for (const double cap_rad : {default_cap_rad, two_thirds_cap_rad}) {
         const Hemisphere hemisphere(0.5, cap_rad);
         std::mt19937 random(1);
@@ -50,7 +50,7 @@ TEST(Hemisphere, NinePatchesHaveEqualAreasWhichMakeTheCap) {
     EXPECT_NEAR(1.0 - std::cos(0.5 * two_thirds_cap_rad), 2.0 / 3.0, 1e-12);
 }
 
-TEST(Hemisphere, BordersLieWhereTheyAreSaidToAMillionthOfADegree) {
+TEST(Hemisphere, PatchBordersAreExactToAMillionthOfADegree) {
     const Hemisphere hemisphere(0.7);
     constexpr double beside = 1e-6 * degree;
     const double centre_rad = std::acos(17.0 / 18.0); // a ninth of half the hemisphere
@@ -72,7 +72,7 @@ TEST(Hemisphere, BordersLieWhereTheyAreSaidToAMillionthOfADegree) {
     }
 }
 
-TEST(Hemisphere, EveryEyeOfTheCapHasOnePatchWhateverItsDistance) {
+TEST(Hemisphere, PatchOfAnEyeDoesNotDependOnItsDistance) {
     const Hemisphere hemisphere(0.4);
     std::mt19937 random(2);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -102,7 +102,7 @@ TEST(Hemisphere, EveryEyeOfTheCapHasOnePatchWhateverItsDistance) {
     EXPECT_GT(compared, 5000);
 }
 
-TEST(Hemisphere, AnEyeBehindTheWindowOrNowhereHasNoPatch) {
+TEST(Hemisphere, EyeBehindTheWindowOrNotFiniteHasNoPatch) {
     const Hemisphere hemisphere(0.4);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -113,7 +113,7 @@ TEST(Hemisphere, AnEyeBehindTheWindowOrNowhereHasNoPatch) {
     }
 }
 
-TEST(Hemisphere, TwentyNineCamerasStandOnTheSphereAndInTheirPatches) {
+TEST(Hemisphere, CamerasLieOnTheSphereWithinTheirPatches) {
     for (const double cap_rad : {0.3, default_cap_rad, two_thirds_cap_rad, max_cap_rad}) {
         const Hemisphere hemisphere(0.45, cap_rad);
         std::set<std::size_t> own;
@@ -150,7 +150,7 @@ double angle_to_border(const Hemisphere& hemisphere, const glm::dvec3& camera, s
     return least;
 }
 
-TEST(Hemisphere, APatchBorrowsFromEachNeighbourTheCameraNearestToTheirBorder) {
+TEST(Hemisphere, PatchUsesTheNearestCameraOfEachNeighbour) {
     const Hemisphere hemisphere(0.5);
     for (std::size_t patch = 0; patch < patch_count; ++patch) {
         const auto seeing = hemisphere.cameras_of(patch);
@@ -191,7 +191,7 @@ TEST(Hemisphere, NoDirectionOfTheCapIsFarFromACamera) {
     EXPECT_LE(farthest, 14.2 * degree);
 }
 
-TEST(Hemisphere, AnImagePlaneIsParallelToTheThreeCamerasOfItsPatch) {
+TEST(Hemisphere, ImagePlaneIsParallelToTheCamerasOfItsPatch) {
     for (const double cap_rad : {default_cap_rad, two_thirds_cap_rad}) {
         const Hemisphere hemisphere(0.6, cap_rad);
         for (std::size_t patch = 0; patch < patch_count; ++patch) {
@@ -212,7 +212,7 @@ TEST(Hemisphere, AnImagePlaneIsParallelToTheThreeCamerasOfItsPatch) {
     }
 }
 
-TEST(Hemisphere, IsDrawnInDocsAsItIs) {
+TEST(Hemisphere, DrawingInDocsIsCurrent) {
     const std::string drawing = svg_of(Hemisphere(1.0));
     if (const char* const file = std::getenv("HEMISPHERE_DRAWING"); file != nullptr) {
         std::ofstream(file) << drawing;

@@ -116,7 +116,7 @@ std::size_t wall_of(double z) {
     return nearest;
 }
 
-TEST(LayeredDepth, HoldsEveryPointThatACameraOfThePatchSees) {
+TEST(LayeredDepth, ContainsEveryPointSeenByAPatchCamera) {
     for (std::size_t patch = 0; patch < patch_count; ++patch) {
         const LayeredDepth layers = seen_spheres().patch(patch);
         const PictureMap map(layers.camera);
@@ -185,7 +185,7 @@ TEST(LayeredDepth, HoldsNoPointTwice) {
     }
 }
 
-TEST(LayeredDepth, InRowsOfTheEpipoleTheOrderAndADepthTestMakeEqualPictures) {
+TEST(LayeredDepth, DrawingOrderEqualsADepthTestForEyesAtEqualDepth) {
     // An eye beside the image's, at its distance: pixels move along their rows, or columns, alone. The walls move by several
     // pixels against each other.
     const Seen seen(walls());
@@ -206,7 +206,7 @@ TEST(LayeredDepth, InRowsOfTheEpipoleTheOrderAndADepthTestMakeEqualPictures) {
     EXPECT_GT(covered, 20'000U);
 }
 
-TEST(LayeredDepth, FromAnyEyeTheOrderDiffersFromADepthTestAtSilhouettesAlone) {
+TEST(LayeredDepth, DrawingOrderDiffersFromADepthTestOnlyAtSilhouettes) {
     std::mt19937 random(3);
     for (std::size_t patch = 0; patch < patch_count; ++patch) {
         const LayeredDepth layers = seen_spheres().patch(patch);
@@ -246,7 +246,7 @@ template <typename Draw> void expect_like_the_world(const TriangleWorld& world, 
     EXPECT_EQ(compared, std::size_t{54 * 128 * 128});
 }
 
-TEST(LayeredDepth, ShowsFromEveryEyeOfItsPatchWhatTheWorldShows) {
+TEST(LayeredDepth, MatchesTheWorldFromEveryEyeOfItsPatch) {
     std::vector<LayeredDepth> patches;
     for (std::size_t patch = 0; patch < patch_count; ++patch) {
         patches.push_back(seen_spheres().patch(patch));
@@ -255,7 +255,7 @@ TEST(LayeredDepth, ShowsFromEveryEyeOfItsPatchWhatTheWorldShows) {
                           [&](std::size_t patch, DepthPicture& picture) { splat(patches[patch], picture); });
 }
 
-TEST(LayeredDepth, OnABorderTheImagesOfBothPatchesShowTheSame) {
+TEST(LayeredDepth, AdjacentPatchesMatchAtTheirBorder) {
     // Otherwise a window would flicker for an eye that crosses the border, or differ for two eyes on its sides.
     const Hemisphere& hemisphere = seen_spheres().hemisphere;
     std::vector<LayeredDepth> patches;
@@ -290,7 +290,7 @@ TEST(LayeredDepth, OnABorderTheImagesOfBothPatchesShowTheSame) {
     EXPECT_EQ(compared, std::size_t{2 * 48 * 128 * 128});
 }
 
-TEST(LayeredDepth, DepthIsThatOfTheWorld) {
+TEST(LayeredDepth, DepthMatchesTheWorld) {
     std::mt19937 random(6);
     TriangleWorld wall;
     add_rectangle(wall, {0.0F, 0.0F, -0.1F}, {0.6F, 0.6F}, {1, 2, 3});
@@ -312,7 +312,7 @@ TEST(LayeredDepth, DepthIsThatOfTheWorld) {
     }
 }
 
-TEST(LayeredDepth, AnObjectThatCameLaterHidesAndIsHiddenInThePicture) {
+TEST(LayeredDepth, LaterDrawnObjectIsOccludedCorrectly) {
     std::mt19937 random(8);
     TriangleWorld later;
     add_sphere(later, {0.01F, -0.01F, -0.05F}, 0.03F, {255, 255, 255});
@@ -348,7 +348,7 @@ TEST(LayeredDepth, ASecondPictureOfTheSameSizeKeepsItsMemory) {
     EXPECT_EQ(picture.nearness.data(), before);
 }
 
-TEST(LayeredDepth, WithoutAPixelOrFromBehindTheWindowItDrawsNothing) {
+TEST(LayeredDepth, DrawsNothingIfEmptyOrFromAnInvalidEye) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const Seen nothing(TriangleWorld{});
     const LayeredDepth empty = nothing.patch(2);
@@ -368,13 +368,13 @@ TEST(LayeredDepth, WithoutAPixelOrFromBehindTheWindowItDrawsNothing) {
     }
 }
 
-TEST(Peers, OneImageOfAllCamerasShowsWhatTheWorldShows) {
+TEST(Peers, SingleLayeredImageMatchesTheWorld) {
     const LayeredDepth layers = single_ldi(seen_spheres().hemisphere, seen_spheres().pictures, view);
     expect_like_the_world(spheres_before_a_wall(),
                           [&](std::size_t, DepthPicture& picture) { splat(layers, picture); });
 }
 
-TEST(Peers, AnImageBasedObjectShowsWhatTheWorldShowsByThreeSidesAtMost) {
+TEST(Peers, ImageBasedObjectMatchesTheWorldWithAtMostThreeSides) {
     TriangleWorld world = spheres_before_a_wall();
     for (std::size_t corner = 0; corner < 4;
          ++corner) { // a smaller wall, so that pixels on the box are as fine as the window's

@@ -40,7 +40,7 @@ bool equal(const PatchRelief& a, const PatchRelief& b) {
            a.window_from_box == b.window_from_box && a.texel_m == b.texel_m;
 }
 
-TEST(PatchMaker, MakesEqualPatchesHoweverItsWorkIsDivided) {
+TEST(PatchMaker, PatchesDoNotDependOnStepSizes) {
     const auto world = shared_town();
     const Hemisphere hemisphere(eye_distance_m);
     PatchMaker at_once(world, hemisphere, making_limits());
@@ -63,7 +63,7 @@ TEST(PatchMaker, MakesEqualPatchesHoweverItsWorkIsDivided) {
     EXPECT_TRUE(equal(*at_once.patch(4), make_patch_relief(*world, hemisphere, 4, making_limits())));
 }
 
-TEST(PatchMaker, MakesThePatchThatIsLookedAtFirstAndItsNeighboursNext) {
+TEST(PatchMaker, MakesTheViewedPatchFirstAndThenByAngle) {
     const Hemisphere hemisphere(eye_distance_m);
     PatchMaker maker(shared_town(), hemisphere, making_limits());
     maker.look_from(eye_distance_m * hemisphere.middle_of(5));
@@ -75,7 +75,7 @@ TEST(PatchMaker, MakesThePatchThatIsLookedAtFirstAndItsNeighboursNext) {
     EXPECT_GT(order.calls, 100U); // small pieces
 }
 
-TEST(PatchMaker, TurnsToAnotherPatchAtOnceAndKeepsNoHalfMadeOne) {
+TEST(PatchMaker, SwitchesToTheNewlyViewedPatch) {
     const Hemisphere hemisphere(eye_distance_m);
     PatchMaker maker(shared_town(), hemisphere, making_limits());
     maker.look_from(eye_distance_m * hemisphere.middle_of(2));

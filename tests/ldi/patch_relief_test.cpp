@@ -88,7 +88,7 @@ Compared compare(const SeenWindow& truth, const SeenWindow& seen) {
     return compared;
 }
 
-TEST(PatchRelief, ShowsWhatEyesAnywhereInItsPatchSee) {
+TEST(PatchRelief, MatchesARayCastFromEyesInItsPatch) {
     const Hemisphere hemisphere(eye_distance_m);
     std::mt19937 random(49);
     for (const unsigned seed : {1U, 2U}) {
@@ -112,7 +112,7 @@ TEST(PatchRelief, ShowsWhatEyesAnywhereInItsPatchSee) {
     }
 }
 
-TEST(PatchRelief, HoldsWhatOneOfItsCamerasSeesBehindWhatHidesItFromAnother) {
+TEST(PatchRelief, ContainsSurfacesHiddenFromTheFirstCamera) {
     // A plate before a wall: the camera on the axis does not see the wall's middle, one of the others sees a part of it.
     TriangleWorld world;
     const auto plate = [&world](float half, float z, const glm::u8vec4& colour) {
@@ -156,7 +156,7 @@ TEST(PatchRelief, HoldsWhatOneOfItsCamerasSeesBehindWhatHidesItFromAnother) {
     EXPECT_GT(hidden_from_first, 50);
 }
 
-TEST(PatchRelief, LacksNothingBesideThingsThinnerThanATexel) {
+TEST(PatchRelief, HasNoHolesBesideThinObjects) {
     const Hemisphere hemisphere(eye_distance_m);
     const TriangleWorld world = wires_before_a_wall();
     std::mt19937 random(7);
@@ -183,7 +183,7 @@ double rmse(const SeenWindow& a, const SeenWindow& b) {
     return std::sqrt(squares / (3.0 * static_cast<double>(a.colours.texels.size())));
 }
 
-TEST(PatchRelief, ChangesHardlyWhereAnEyeCrossesFromPatchToPatch) {
+TEST(PatchRelief, ChangesLittleAcrossPatchBorders) {
     constexpr int fine = 256;
     const PatchLimits fine_limits{.half_extent_m = glm::dvec2(half_window_m),
                                   .texel_m = 2.0 * half_window_m / fine};
@@ -215,7 +215,7 @@ TEST(PatchRelief, ChangesHardlyWhereAnEyeCrossesFromPatchToPatch) {
     }
 }
 
-TEST(PatchRelief, HasTheHolesAndColoursOfACutOutTexture) {
+TEST(PatchRelief, KeepsHolesAndColoursOfACutOutTexture) {
     // A wall whose left half is a hole, 2 m wide: its texels are of 0.5 m, so the hole ends at x = 0 to a texel's middle.
     auto texture = std::make_shared<image::Image8>(4, 1);
     texture->texels = {{0, 0, 0, 0}, {90, 160, 230, 0}, {90, 160, 230, 255}, {90, 160, 230, 255}};
@@ -249,7 +249,7 @@ TEST(PatchRelief, HasTheHolesAndColoursOfACutOutTexture) {
     EXPECT_GT(hits, px * px / 4);
 }
 
-TEST(PatchRelief, IsEmptyWhereNothingIsSeen) {
+TEST(PatchRelief, IsEmptyWithoutVisibleTriangles) {
     const Hemisphere hemisphere(eye_distance_m);
     TriangleWorld beside = town(1);
     for (glm::vec3& position : beside.positions) {
@@ -269,7 +269,7 @@ TEST(PatchRelief, IsEmptyWhereNothingIsSeen) {
 }
 
 /// A roof that is thinner than a texel, light above and dark below: a patch cannot tell both sides apart.
-TEST(PatchRelief, OfAOneSidedWorldShowsNoUndersideOfAThinRoof) {
+TEST(PatchRelief, OneSidedWorldShowsNoUndersideOfAThinRoof) {
     const Hemisphere hemisphere(eye_distance_m);
     const PatchLimits limits{.half_extent_m = glm::dvec2(half_window_m), .texel_m = 2.0 * half_window_m / 64};
     TriangleWorld roof;

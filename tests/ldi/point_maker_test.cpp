@@ -25,7 +25,7 @@ bool same_points(const PointPatch& a, const PointPatch& b) {
     return a.places == b.places && a.nearness == b.nearness && a.slopes == b.slopes && a.colours == b.colours;
 }
 
-TEST(PointMaker, MakesEqualPatchesHoweverItsWorkIsDivided) {
+TEST(PointMaker, PatchesDoNotDependOnStepSizes) {
     const Hemisphere hemisphere(eye_distance_m);
     const CameraView view = making_view(64);
     const TriangleWorld world = town(1);
@@ -49,7 +49,7 @@ TEST(PointMaker, MakesEqualPatchesHoweverItsWorkIsDivided) {
     EXPECT_FALSE(in_parts.step());
 }
 
-TEST(PointMaker, MakesThePatchThatIsLookedAtFirstAndItsNeighboursNext) {
+TEST(PointMaker, MakesTheViewedPatchFirstAndThenByAngle) {
     const Hemisphere hemisphere(eye_distance_m);
     PointMaker maker({town(1)}, hemisphere, making_view(48), plenty);
     maker.look_from(eye_distance_m * hemisphere.middle_of(5));
@@ -60,7 +60,7 @@ TEST(PointMaker, MakesThePatchThatIsLookedAtFirstAndItsNeighboursNext) {
 }
 
 /// From every place of the hemisphere's cap, at most one pixel in 400 is empty that the rasterizer fills.
-TEST(PointMaker, AnEyeAnywhereInAPatchSeesNoHoles) {
+TEST(PointMaker, PatchesHaveAlmostNoHoles) {
     constexpr int px = 96;
     const Hemisphere hemisphere(eye_distance_m);
     const TriangleWorld world = spheres_before_a_wall();
@@ -87,7 +87,7 @@ TEST(PointMaker, AnEyeAnywhereInAPatchSeesNoHoles) {
 }
 
 /// Worlds that hide each other show as one world of all their triangles does.
-TEST(PointMaker, WorldsStandTogether) {
+TEST(PointMaker, SeveralWorldsEqualOneCombinedWorld) {
     const Hemisphere hemisphere(eye_distance_m);
     const CameraView view = making_view(64);
     const TriangleWorld whole = spheres_before_a_wall();
@@ -107,7 +107,7 @@ TEST(PointMaker, WorldsStandTogether) {
     EXPECT_TRUE(same_points(*apart.patch(0), *together.patch(0)));
 }
 
-TEST(PointMaker, MakesNoMorePatchesThanItsMemoryHolds) {
+TEST(PointMaker, StaysWithinItsMemoryByMakingFewerPatches) {
     const Hemisphere hemisphere(eye_distance_m);
     PointMaker all({town(2)}, hemisphere, making_view(64), plenty);
     while (all.step()) {
@@ -129,7 +129,7 @@ TEST(PointMaker, MakesNoMorePatchesThanItsMemoryHolds) {
     EXPECT_LE(kept, bytes / 2);
 }
 
-TEST(PointMaker, OfNothingMakesPatchesWithoutAPoint) {
+TEST(PointMaker, MakesEmptyPatchesWithoutAWorld) {
     PointMaker maker({}, Hemisphere(eye_distance_m), making_view(16), plenty);
     while (maker.step()) {
     }
@@ -155,7 +155,7 @@ std::vector<glm::dvec3> averaged(const PointPatch& patch, const glm::dvec3& eye,
     return codes;
 }
 
-TEST(PointMaker, APictureDoesNotChangeWhereAnEyeCrossesFromPatchToPatch) {
+TEST(PointMaker, PictureChangesLittleAcrossPatchBorders) {
     constexpr int px = 96;
     const Hemisphere hemisphere(eye_distance_m);
     PointMaker maker({hills()}, hemisphere, making_view(2 * px), plenty);

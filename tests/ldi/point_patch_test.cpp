@@ -64,7 +64,7 @@ protected:
     PointPatch patch = point_patch(layers);
 };
 
-TEST_P(PointPatches, ShowWhatSplattingIn64BitsShows) {
+TEST_P(PointPatches, MatchSplattingIn64Bits) {
     for (const glm::dvec3& eye : eyes_of(hemisphere, GetParam())) {
         const DepthPicture picture = splatted(patch, eye);
         DepthPicture exact = empty_for(eye);
@@ -84,7 +84,7 @@ TEST_P(PointPatches, ShowWhatSplattingIn64BitsShows) {
     }
 }
 
-TEST_P(PointPatches, ShowSurfacesThatTheRasterizerShows) {
+TEST_P(PointPatches, MatchTheRasterizer) {
     for (const glm::dvec3& eye : eyes_of(hemisphere, GetParam())) {
         const DepthPicture picture = splatted(patch, eye);
         DepthPicture truth = empty_for(eye);
@@ -100,7 +100,7 @@ TEST_P(PointPatches, ShowSurfacesThatTheRasterizerShows) {
     }
 }
 
-TEST_P(PointPatches, AreEqualWithAllInstructions) {
+TEST_P(PointPatches, AreEqualWithPlainAndBestInstructions) {
     for (const glm::dvec3& eye : eyes_of(hemisphere, GetParam())) {
         const DepthPicture plain = splatted(patch, eye, relief::Instructions::Plain);
         const DepthPicture best = splatted(patch, eye);
@@ -109,7 +109,7 @@ TEST_P(PointPatches, AreEqualWithAllInstructions) {
     }
 }
 
-TEST_P(PointPatches, ThatNoEyeSeesAreLeftOut) {
+TEST_P(PointPatches, OmitPointsThatNoEyeSees) {
     SeenPoints maker(patch, hemisphere, GetParam(), point_view);
     while (maker.step()) {
     }
@@ -146,7 +146,7 @@ TEST_P(PointPatches, ThatNoEyeSeesAreLeftOut) {
 
 INSTANTIATE_TEST_SUITE_P(EachKind, PointPatches, testing::Values(0, 1, 4));
 
-TEST(PointPatch, ShowsNothingToAnEyeOnTheWindowOrBehindIt) {
+TEST(PointPatch, DrawsNothingForAnEyeOnOrBehindTheWindow) {
     const Hemisphere hemisphere(point_radius_m);
     const PointPatch patch = point_patch(layers_of(hemisphere, spheres_before_a_wall(), 0));
     for (const double z : {0.0, -1e-9, -0.3, std::nan("")}) {
@@ -157,7 +157,7 @@ TEST(PointPatch, ShowsNothingToAnEyeOnTheWindowOrBehindIt) {
     }
 }
 
-TEST(PointPatch, OfNothingShowsNothing) {
+TEST(PointPatch, DrawsNothingWithoutPoints) {
     const Hemisphere hemisphere(point_radius_m);
     const PointPatch patch = point_patch(layers_of(hemisphere, {}, 3));
     EXPECT_EQ(patch.bytes(), 0U);

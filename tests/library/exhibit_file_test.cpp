@@ -12,7 +12,7 @@ std::string refusal_of(std::string_view text) {
     return file ? "" : test::told(file.error());
 }
 
-TEST(ExhibitFile, SaysAllThatASetIs) {
+TEST(ExhibitFile, ParsesEveryKey) {
     const Result<ExhibitFile> file = parse_exhibit_file(R"(
 order = ["vase", "cup.2"]
 only = true
@@ -40,7 +40,7 @@ TEST(ExhibitFile, MayBeEmpty) {
     EXPECT_FALSE(file->attract);
 }
 
-TEST(ExhibitFile, SaysWhichLineIsWrongAndWhatIsNearest) {
+TEST(ExhibitFile, ReportsErrorsWithLineAndNearestKey) {
     EXPECT_TRUE(test::tells(refusal_of("\nordre = [\"vase\"]\n"),
                             {"exhibit.toml:2: ordre ", "key is order ", "[settings.unknown_key]"}));
     EXPECT_EQ(refusal_of("[[key]]\nname = \"x\"\npublic_ky = \"y\"\n").substr(0, 15), "exhibit.toml:1:");

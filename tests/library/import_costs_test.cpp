@@ -8,7 +8,7 @@ using namespace testing_disk;
 
 class ImportCosts : public StickTest {};
 
-TEST_F(ImportCosts, CountsWhatAStickMayHold) {
+TEST_F(ImportCosts, LimitsPacksFoldersAndEntries) {
     request.limits.max_entries = 10;
     request.limits.max_packs = 3;
     request.limits.max_folders = 2;
@@ -76,7 +76,7 @@ TEST_F(ImportCosts, DamagedCopiesOfOnePackAreTriedTwice) {
     EXPECT_LT(kiosk.operations, 10 * one_copy) << "writes, and reads of the check";
 }
 
-TEST_F(ImportCosts, ManyDamagedPacksDoNotKeepTheProcessor) {
+TEST_F(ImportCosts, ManyDamagedPacksStopTheImport) {
     ImportEnvironment outside = quiet_environment();
     Nanoseconds work{0};
     outside.work = [&] { return work; };
@@ -100,7 +100,7 @@ TEST_F(ImportCosts, ManyDamagedPacksDoNotKeepTheProcessor) {
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"good 1"});
 }
 
-TEST_F(ImportCosts, ManyFilesThatAreNoPacksDoNotKeepTheProcessor) {
+TEST_F(ImportCosts, ManyInvalidFilesStopTheImport) {
     for (int k = 0; k < 50; ++k) {
         stick.put(fmt::format("{:02}.fspack", k), "PK");
     }
@@ -112,7 +112,7 @@ TEST_F(ImportCosts, ManyFilesThatAreNoPacksDoNotKeepTheProcessor) {
     EXPECT_LT(report.packs.size(), 20U);
 }
 
-TEST_F(ImportCosts, FiveHundredPacks) {
+TEST_F(ImportCosts, ImportsFiveHundredPacks) {
     const Bytes plain = Museum::unsigned_pack("a", "a");
     const samples::Entries entries = samples::take_apart(plain);
     for (int k = 0; k < 500; ++k) {

@@ -13,7 +13,7 @@ ImportReport at(const char* id, ImportStage stage) {
     return report;
 }
 
-TEST(ImportEnd, IsSaidOfAnImportThatWasStopped) {
+TEST(ImportEnd, ReportsAStoppedImportAsFailed) {
     for (const ImportStage stage : {ImportStage::Found, ImportStage::Copying}) {
         const auto report = final_report_of(at("stick7p1", stage), "stick7p1", "signal", 12);
         ASSERT_TRUE(report);
@@ -26,13 +26,13 @@ TEST(ImportEnd, IsSaidOfAnImportThatWasStopped) {
     }
 }
 
-TEST(ImportEnd, IsDoneOnceTheSetWasSwitchedTo) {
+TEST(ImportEnd, ReportsDoneOnceTheSetWasSwitched) {
     const auto report = final_report_of(at("stick7p1", ImportStage::MayTakeOut), "stick7p1", "signal", 12);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->stage, ImportStage::Done);
 }
 
-TEST(ImportEnd, NamesALimitThatWasMet) {
+TEST(ImportEnd, ReportsAnExceededLimit) {
     for (const char* result : {"timeout", "oom-kill", "resources"}) {
         const auto report = final_report_of(at("stick7p1", ImportStage::Copying), "stick7p1", result, 0);
         ASSERT_TRUE(report);
@@ -40,12 +40,12 @@ TEST(ImportEnd, NamesALimitThatWasMet) {
     }
 }
 
-TEST(ImportEnd, LeavesWhatWasSaid) {
+TEST(ImportEnd, KeepsAFinalReport) {
     EXPECT_FALSE(final_report_of(at("stick7p1", ImportStage::Done), "stick7p1", "success", 0));
     EXPECT_FALSE(final_report_of(at("stick7p1", ImportStage::Failed), "stick7p1", "timeout", 0));
 }
 
-TEST(ImportEnd, LeavesAnotherSticksReportWhileThatIsRead) {
+TEST(ImportEnd, KeepsAnotherSticksReportWhileItIsRead) {
     EXPECT_FALSE(final_report_of(at("stick8", ImportStage::Copying), "stick7p1", "signal", 0));
     const auto report = final_report_of(at("stick8", ImportStage::Done), "stick7p1", "signal", 0);
     ASSERT_TRUE(report);
@@ -54,20 +54,20 @@ TEST(ImportEnd, LeavesAnotherSticksReportWhileThatIsRead) {
     EXPECT_EQ(report->done_bytes, 0U);
 }
 
-TEST(ImportEnd, IsSaidWhereNothingWas) {
+TEST(ImportEnd, ReportsAFailureWithoutAnEarlierReport) {
     const auto report = final_report_of(std::nullopt, "stick7p1", "core-dump", 3);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->import_id, "stick7p1");
     EXPECT_EQ(report->stage, ImportStage::Failed);
 }
 
-TEST(ImportEnd, OfAnImportThatEndedWellDoesNotReplaceTheNextOnes) {
+TEST(ImportEnd, ASuccessfulEndKeepsAnotherSticksReport) {
     for (const ImportStage stage : {ImportStage::Found, ImportStage::Done, ImportStage::Failed}) {
         EXPECT_FALSE(final_report_of(at("stick8", stage), "stick7p1", "success", 0));
     }
 }
 
-TEST(ImportEnd, AStickThatCannotBeMountedIsToldOnce) {
+TEST(ImportEnd, ReportsAnUnmountableStickOnce) {
     EXPECT_TRUE(must_report_unmounted(std::nullopt, "stick7p1"));
     EXPECT_TRUE(must_report_unmounted(at("stick71p1", ImportStage::Done), "stick7p1"));
     EXPECT_TRUE(must_report_unmounted(at("stick7p2", ImportStage::Failed), "stick7p1"));
@@ -77,7 +77,7 @@ TEST(ImportEnd, AStickThatCannotBeMountedIsToldOnce) {
     EXPECT_FALSE(must_report_unmounted(at("stick7p1", ImportStage::Failed), "stick7p1"));
 }
 
-TEST(ImportEnd, AReportThatIsOverStandsForAWhile) {
+TEST(ImportEnd, DelaysTheNextReportAfterAFinalOne) {
     using std::chrono::hours;
     using std::chrono::seconds;
     const ImportReport other = at("stick7p1", ImportStage::Done);

@@ -41,7 +41,7 @@ private:
     int packs_ = 0;
 };
 
-TEST_F(ImportKeys, NewKeysComeSignedByOldOnes) {
+TEST_F(ImportKeys, AcceptsNewKeysSignedByTrustedOnes) {
     const pack::SecretKey next = pack::SecretKey::make();
     const std::string text =
         fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\nuntil = \"2040-12-31\"\n",
@@ -60,7 +60,7 @@ TEST_F(ImportKeys, NewKeysComeSignedByOldOnes) {
     expect_refused("c.fspack", ImportRefusal::WrongKey, "2040-12-31");
 }
 
-TEST_F(ImportKeys, AKeyAloneIsNoNewSet) {
+TEST_F(ImportKeys, AKeyAloneMakesNoNewSet) {
     stick.put("a.fspack", museum.pack("a", 1));
     import();
     museum.put_exhibit(stick,
@@ -73,7 +73,7 @@ TEST_F(ImportKeys, AKeyAloneIsNoNewSet) {
     EXPECT_EQ(read_set_file(kiosk)->keys.size(), 1U);
 }
 
-TEST_F(ImportKeys, PacksOfAKeyThatIsTakenBackStayAndAreNamed) {
+TEST_F(ImportKeys, KeepsAndNamesPacksOfARevokedKey) {
     request.today = day("2026-11-20");
     ASSERT_EQ(bring(key_text(next), museum.key, 1).stage, ImportStage::Done);
     stick.put("jar.fspack", museum.pack("jar", 1));
@@ -102,14 +102,14 @@ TEST_F(ImportKeys, PacksOfAKeyThatIsTakenBackStayAndAreNamed) {
     EXPECT_NE(line_of(again, "exhibit.toml").reason.find("vase"), std::string::npos) << "whichever key comes";
 }
 
-TEST(PackSigners, ManyNamesAreFew) {
+TEST(PackSigners, ListsAtMostFiveNames) {
     EXPECT_EQ(names_in_words(std::vector<std::string>{}), "");
     EXPECT_EQ(names_in_words(std::vector<std::string>{"a", "b"}), "a, b");
     EXPECT_EQ(names_in_words(std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g"}),
               "a, b, c, d, e and 2 more");
 }
 
-TEST_F(ImportKeys, AKeyGoesWithTheOneThatSignedForIt) {
+TEST_F(ImportKeys, AKeyLosesTrustWithItsSigner) {
     ASSERT_EQ(bring(key_text(next), museum.key, 1).stage, ImportStage::Done);
     ASSERT_EQ(bring(key_text(third), next, 2).stage, ImportStage::Done);
     EXPECT_TRUE(is_believed(next));
@@ -125,7 +125,7 @@ TEST_F(ImportKeys, AKeyGoesWithTheOneThatSignedForIt) {
     EXPECT_FALSE(is_believed(next)) << "taken back by a new end";
 }
 
-TEST_F(ImportKeys, AKeyThatGrowsOldTakesNoneWithItAndOneThatIsEndedBeforeDoes) {
+TEST_F(ImportKeys, AKeySurvivesItsSignersExpiryButNotItsRevocation) {
     request.keys[0].until = day("2030-12-31");
     request.today = day("2030-06-01");
     ASSERT_EQ(bring(key_text(next), museum.key, 1).stage, ImportStage::Done);
@@ -137,7 +137,7 @@ TEST_F(ImportKeys, AKeyThatGrowsOldTakesNoneWithItAndOneThatIsEndedBeforeDoes) {
     EXPECT_FALSE(is_believed(next));
 }
 
-TEST_F(ImportKeys, NoKeyVouchesForItself) {
+TEST_F(ImportKeys, AKeyCannotExtendItself) {
     ASSERT_EQ(bring(key_text(next, "2030-12-31"), museum.key, 1).stage, ImportStage::Done);
     const ImportReport again = bring(key_text(next, "2099-12-31"), next, 2);
     EXPECT_EQ(again.refusal, ImportRefusal::WrongKey);
@@ -153,7 +153,7 @@ TEST_F(ImportKeys, NoKeyVouchesForItself) {
     EXPECT_FALSE(is_believed(museum.key));
 }
 
-TEST_F(ImportKeys, AClockThatGoesBackRevivesNoKey) {
+TEST_F(ImportKeys, AClockSetBackRevivesNoKey) {
     request.keys[0].until = day("2030-12-31");
     request.today = day("2031-01-01");
     EXPECT_FALSE(is_believed(museum.key));
@@ -168,7 +168,7 @@ TEST_F(ImportKeys, AClockThatGoesBackRevivesNoKey) {
     EXPECT_TRUE(is_believed(museum.key));
 }
 
-TEST_F(ImportKeys, WhatWasSignedLaterSaysThatItIsLater) {
+TEST_F(ImportKeys, ASerialAdvancesTheLatestDay) {
     constexpr std::uint64_t in_2031 = 1927584000; // 2031-01-31, by date -u -d @1927584000
     request.keys = {{"old", museum.key.public_key(), day("2030-12-31")},
                     {"new", next.public_key(), std::nullopt}};

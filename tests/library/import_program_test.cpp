@@ -70,7 +70,7 @@ protected:
     Museum museum;
 };
 
-TEST_F(ImportProgram, TakesListsAndSaysWhatItDid) {
+TEST_F(ImportProgram, ImportsListsAndReports) {
     put("stick/vase.fspack", museum.pack("vase", 3));
     put("stick/more/cup.fspack", museum.pack("cup", 1));
     put("stick/plain.fspack", Museum::unsigned_pack("plain", "plain"));
@@ -96,7 +96,7 @@ TEST_F(ImportProgram, TakesListsAndSaysWhatItDid) {
     EXPECT_EQ(parse_import_report(text("out.txt"))->packs.size(), 3U);
 }
 
-TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
+TEST_F(ImportProgram, ListsTrustedKeys) {
     const pack::SecretKey next = pack::SecretKey::make();
     const std::string set =
         fmt::format("[[key]]\nname = \"2031\"\npublic_key = \"{}\"\nuntil = \"2035-12-31\"\n",
@@ -121,7 +121,7 @@ TEST_F(ImportProgram, ListsWhoseSignatureCounts) {
     EXPECT_NE(text("out.txt").find("is no longer trusted"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
+TEST_F(ImportProgram, ListsEachPacksSignerAndItsTrust) {
     const pack::SecretKey second = pack::SecretKey::make();
     const auto bring_key = [&](const std::string& until, int serial) {
         const std::string set = fmt::format("[[key]]\nname = \"second\"\npublic_key = \"{}\"\n{}",
@@ -169,7 +169,7 @@ TEST_F(ImportProgram, ListsWhoSignedEachPackAndWhetherThatKeyStillCounts) {
 }
 
 /// The name as udev writes it: mke2fs -L and blkid give the same bytes (util-linux, encode.c).
-TEST_F(ImportProgram, TakesTheLabelFromUdevsLinkWhateverItHolds) {
+TEST_F(ImportProgram, DecodesTheLabelFromTheUdevLink) {
     const auto label_of = [&](const std::string& link) {
         std::filesystem::remove_all(folder / "labels");
         std::filesystem::create_directory(folder / "labels");
@@ -195,7 +195,7 @@ TEST_F(ImportProgram, TakesTheLabelFromUdevsLinkWhateverItHolds) {
     EXPECT_EQ(import("--report report.json --label-from labels"), 0) << text("err.txt");
 }
 
-TEST_F(ImportProgram, SaysWhatItWasNotGiven) {
+TEST_F(ImportProgram, RejectsMissingOptionsAndFolders) {
     EXPECT_EQ(run("frustumscreen-import --from stick"), 2);
     EXPECT_EQ(run("frustumscreen-import --from stick --into library"), 2);
     EXPECT_EQ(run("frustumscreen-import --list"), 2);
@@ -208,7 +208,7 @@ TEST_F(ImportProgram, SaysWhatItWasNotGiven) {
     EXPECT_EQ(parse_import_report(text("report.json"))->refusal, ImportRefusal::Unreadable);
 }
 
-TEST_F(ImportProgram, TellsOfAKioskThatCannotBegin) {
+TEST_F(ImportProgram, ReportsUnusableSettingsAndLibrary) {
     put("kiosk.toml", as_bytes("[exhibit\n"));
     const std::string words = "frustumscreen-import --from stick --report report.json --id stick8p1 ";
     EXPECT_EQ(run(words + "--into library --config kiosk.toml"), 1);
@@ -226,7 +226,7 @@ TEST_F(ImportProgram, TellsOfAKioskThatCannotBegin) {
     EXPECT_NE(report->reason.find("file"), std::string::npos) << report->reason;
 }
 
-TEST_F(ImportProgram, LeavesTheReportOfAStickThatWasReadAfterAll) {
+TEST_F(ImportProgram, UnmountedKeepsTheReportOfAStickThatWasRead) {
     put("stick/vase.fspack", museum.pack("vase", 3));
     ASSERT_EQ(import("--report report.json --id stick8p1"), 0);
     const std::string read = text("report.json");
@@ -258,7 +258,7 @@ TEST_F(ImportProgram, FollowsNoLinkAndWaitsForNoPipe) {
     EXPECT_EQ(import(), 1);
 }
 
-TEST_F(ImportProgram, WaitsForAnotherImportAndTwoSticksAreBothTaken) {
+TEST_F(ImportProgram, WaitsForAnotherImportAndTakesBothSticks) {
     put("stick/vase.fspack", museum.pack("vase", 1));
     std::filesystem::create_directories(folder / "second");
     put("second/cup.fspack", museum.pack("cup", 1));

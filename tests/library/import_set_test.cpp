@@ -38,7 +38,7 @@ TEST_F(ImportSet, ASetFileIsTakenWholeOrNotAtAll) {
     EXPECT_EQ(import().refusal, ImportRefusal::Unsigned);
 }
 
-TEST_F(ImportSet, ASetFileSaysOrderAndAttractTexts) {
+TEST_F(ImportSet, ASetFileSetsOrderAndAttractTexts) {
     for (const std::string id : {"a", "b", "c"}) {
         stick.put(id + ".fspack", museum.pack(id, 1));
     }
@@ -62,7 +62,7 @@ TEST_F(ImportSet, NamesTheFileOnce) {
     EXPECT_TRUE(line_of(import(), "exhibit.toml").reason.starts_with("it is not signed"));
 }
 
-TEST_F(ImportSet, APackThatIsRefusedOnTheWayTearsTheSet) {
+TEST_F(ImportSet, AnUnreadableFolderFailsTheWholeSet) {
     stick.put("a.fspack", museum.pack("a", 1));
     stick.put("closed/b.fspack", museum.pack("b", 1));
     museum.put_exhibit(stick, "order = [\"a\"]\n", 1);
@@ -77,7 +77,7 @@ TEST_F(ImportSet, APackThatIsRefusedOnTheWayTearsTheSet) {
     EXPECT_EQ(import().stage, ImportStage::Done);
 }
 
-TEST_F(ImportSet, OnlyANewerPackExcusesOneThatIsRefused) {
+TEST_F(ImportSet, OnlyANewerInstalledPackExcusesARefusedOne) {
     stick.put("a.fspack", museum.pack("a", 5));
     import();
     stick.put("b.fspack", museum.pack("b", 1));
@@ -94,7 +94,7 @@ TEST_F(ImportSet, OnlyANewerPackExcusesOneThatIsRefused) {
     EXPECT_EQ(ids(kiosk), (std::vector<std::string>{"a 5", "b 1"}));
 }
 
-TEST_F(ImportSet, OneSerialIsOneSetFile) {
+TEST_F(ImportSet, RefusesAnotherSetFileWithTheSameSerial) {
     stick.put("a.fspack", museum.pack("a", 1));
     museum.put_exhibit(stick, "order = [\"a\"]\n", 7);
     EXPECT_EQ(import().stage, ImportStage::Done);
@@ -106,7 +106,7 @@ TEST_F(ImportSet, OneSerialIsOneSetFile) {
     EXPECT_EQ(import().stage, ImportStage::Done);
 }
 
-TEST_F(ImportSet, WhereNothingIsTakenNoLineSaysOtherwise) {
+TEST_F(ImportSet, AFailedSetReportsEveryPackAsRefused) {
     const Bytes a = museum.pack("a", 1);
     stick.put("1.fspack", a);
     stick.put("2.fspack", a);

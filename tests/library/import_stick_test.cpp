@@ -92,12 +92,12 @@ TEST_F(ImportStick, APackWhoseInstalledFileIsDamagedIsCopiedAgain) {
     EXPECT_EQ(report.set_number, damages.size() + 1);
 }
 
-TEST_F(ImportStick, AnEmptyStickIsAllRight) {
+TEST_F(ImportStick, AcceptsAnEmptyStick) {
     EXPECT_EQ(import().stage, ImportStage::Done);
     EXPECT_FALSE(kiosk.content("set.txt"));
 }
 
-TEST_F(ImportStick, RefusesWhatIsNotTheMuseums) {
+TEST_F(ImportStick, RefusesUnsignedAndUntrustedPacks) {
     const Bytes plain = Museum::unsigned_pack("a", "a");
     stick.put("a.fspack", plain);
     expect_refused("a.fspack", ImportRefusal::Unsigned, "not signed");
@@ -111,7 +111,7 @@ TEST_F(ImportStick, RefusesWhatIsNotTheMuseums) {
     EXPECT_EQ(line_of(import(), "a.fspack").outcome, ImportOutcome::Taken);
 }
 
-TEST_F(ImportStick, RefusesWhatWasAlteredOrIsNoPack) {
+TEST_F(ImportStick, RefusesAlteredAndInvalidPacks) {
     Bytes bytes = museum.pack("a", 1, 3000);
     stick.put("short.fspack", Bytes(bytes.begin(), bytes.end() - 1));
     stick.put("empty.fspack", Bytes());
@@ -160,7 +160,7 @@ TEST_F(ImportStick, NeverTakesALowerSerialThanOnceTaken) {
     EXPECT_EQ(line_of(import(), "a.fspack").outcome, ImportOutcome::Taken);
 }
 
-TEST_F(ImportStick, OfTwoWithOneIdTakesTheNewer) {
+TEST_F(ImportStick, TakesTheNewerOfTwoWithOneId) {
     stick.put("1.fspack", museum.pack("a", 1));
     stick.put("2.fspack", museum.pack("a", 3));
     stick.put("3.fspack", museum.pack("a", 2));
@@ -173,7 +173,7 @@ TEST_F(ImportStick, OfTwoWithOneIdTakesTheNewer) {
     EXPECT_EQ(ids(kiosk), std::vector<std::string>{"a 3"});
 }
 
-TEST_F(ImportStick, OneSerialIsOnePack) {
+TEST_F(ImportStick, RefusesAnotherPackWithTheSameSerial) {
     stick.put("1.fspack", museum.pack("a", 3));
     stick.put("2.fspack", museum.pack("a", 3, 100));
     const ImportReport report = import();
@@ -182,7 +182,7 @@ TEST_F(ImportStick, OneSerialIsOnePack) {
     EXPECT_NE(line_of(report, "2.fspack").reason.find("other contents"), std::string::npos);
 }
 
-TEST_F(ImportStick, ANewerPackStandsInTheOlderOnesPlace) {
+TEST_F(ImportStick, ANewerPackReplacesTheOlderInPlace) {
     for (const std::string id : {"a", "b", "c"}) {
         stick.put(id + ".fspack", museum.pack(id, 1));
     }
@@ -237,7 +237,7 @@ TEST_F(ImportStick, NeedsRoomForAllOfItAndAMargin) {
     EXPECT_EQ(import().stage, ImportStage::Done);
 }
 
-TEST_F(ImportStick, AFileOrFolderThatIsClosedConcernsItAlone) {
+TEST_F(ImportStick, AnUnreadableFileOrFolderAffectsOnlyItself) {
     stick.put("a.fspack", museum.pack("a", 1));
     stick.put("closed.fspack", museum.pack("b", 1));
     // Operations: the listing of the root, opening a, the reads of a, opening the other.
@@ -255,7 +255,7 @@ TEST_F(ImportStick, AFileOrFolderThatIsClosedConcernsItAlone) {
     }
 }
 
-TEST_F(ImportStick, ADamagedSetFileIsNotForgotten) {
+TEST_F(ImportStick, ADamagedSetFileIsReportedAndKept) {
     stick.put("a.fspack", museum.pack("a", 1));
     import();
     std::string text(as_text(**kiosk.content("set.txt")));
@@ -267,7 +267,7 @@ TEST_F(ImportStick, ADamagedSetFileIsNotForgotten) {
     EXPECT_EQ(as_text(**kiosk.content("set.txt")), text);
 }
 
-TEST_F(ImportStick, ASetFileOfAnotherNameIsTold) {
+TEST_F(ImportStick, ReportsASetFileWithAWrongName) {
     for (const std::string name : {"exhibit.toml.txt", "Exhibit.toml", "exhibit.toml.minisig",
                                    "EXHIBIT (1).TOML.minisig", "sets/exhibit.toml"}) {
         VolatileDisk other;

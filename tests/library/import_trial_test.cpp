@@ -28,7 +28,7 @@ protected:
     Inspector inspector;
 };
 
-TEST_F(ImportTrial, ASetThatIsFoundBadWhileAStickIsCopiedDoesNotComeBackWithIt) {
+TEST_F(ImportTrial, ASetJudgedBadDuringACopyDoesNotReturn) {
     put(1);
     judge(kiosk, TrialState::Good);
     put(2);
@@ -47,7 +47,7 @@ TEST_F(ImportTrial, ASetThatIsFoundBadWhileAStickIsCopiedDoesNotComeBackWithIt) 
     EXPECT_EQ(ids_of(set_file().choice.last_good.value_or(InstalledSet())), std::vector<std::string>{"a 1"});
 }
 
-TEST_F(ImportTrial, ASetThatIsFoundGoodWhileAStickIsCopiedIsTheOneToGoBackTo) {
+TEST_F(ImportTrial, ASetJudgedGoodDuringACopyIsTheLastGoodOne) {
     put(1);
     judge(kiosk, TrialState::Good);
     put(2);
@@ -62,7 +62,7 @@ TEST_F(ImportTrial, ASetThatIsFoundGoodWhileAStickIsCopiedIsTheOneToGoBackTo) {
     EXPECT_EQ(ids_of(set_file().choice.last_good.value_or(InstalledSet())), std::vector<std::string>{"a 2"});
 }
 
-TEST_F(ImportTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
+TEST_F(ImportTrial, TheLastGoodSetBeforeTheFirstIsEmpty) {
     put(1);
     const SetFile first = set_file();
     ASSERT_TRUE(first.choice.last_good);
@@ -77,7 +77,7 @@ TEST_F(ImportTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
     EXPECT_EQ(set_file().choice.last_good->number, 2U);
 }
 
-TEST_F(ImportTrial, NumbersGoOnWhereTheSetWasRemovedByHand) {
+TEST_F(ImportTrial, NumbersContinueAfterTheSetWasRemoved) {
     put(1);
     put(2);
     judge(kiosk, TrialState::Bad);
@@ -87,7 +87,7 @@ TEST_F(ImportTrial, NumbersGoOnWhereTheSetWasRemovedByHand) {
     EXPECT_EQ(ids(), std::vector<std::string>{"a 3"}) << "the old verdict is not about it";
 }
 
-TEST_F(ImportTrial, LeavesTheFilesOfASetThatIsShownOnItsLastTrial) {
+TEST_F(ImportTrial, KeepsTheFilesOfAShownSetOnItsLastTrial) {
     put(1);
     judge(kiosk, TrialState::Good);
     put(2);
@@ -101,7 +101,7 @@ TEST_F(ImportTrial, LeavesTheFilesOfASetThatIsShownOnItsLastTrial) {
     EXPECT_EQ(set_file().choice.last_good->number, 1U);
 }
 
-TEST_F(ImportTrial, OlderSetsMakeRoomOnceTheSetIsGood) {
+TEST_F(ImportTrial, DeletesOlderSetsForRoomOnceTheSetIsGood) {
     put(1);
     const InstalledSet oldest = installed(kiosk);
     judge(kiosk, TrialState::Good);

@@ -107,7 +107,7 @@ TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
 }
 
 /// The names of all packs are synced at once, so that many of them may be there without the others.
-TEST_F(PowerCut, WithManyPacksOnTheStick) {
+TEST_F(PowerCut, LeavesTheOldOrNewSetOfManyPacks) {
     for (const std::string id : {"d", "e", "f", "g"}) {
         stick.put("more/" + id + ".fspack", museum.pack(id, 1, 3000));
     }
@@ -124,7 +124,7 @@ TEST_F(PowerCut, WithManyPacksOnTheStick) {
     std::printf("%d operations, %d sampled, %d cuts\n", after->operations, sampled, cuts);
 }
 
-TEST_F(PowerCut, AfterAStoppedImportAndInTheMiddleOfTheNextOne) {
+TEST_F(PowerCut, LeavesTheOldOrNewSetAfterAStoppedImport) {
     for (int first = 0; first <= operations; ++first) {
         const auto disk = stopped(before, first);
         for (int second = 0; second <= operations; second += 1 + (first + second) % 3) {
@@ -138,7 +138,7 @@ TEST_F(PowerCut, AfterAStoppedImportAndInTheMiddleOfTheNextOne) {
     std::printf("%d cuts\n", cuts);
 }
 
-TEST_F(PowerCut, IntoAnEmptyFolderLeavesNothingOrTheSet) {
+TEST_F(PowerCut, InAnEmptyFolderLeavesNothingOrTheSet) {
     const auto after = std::make_unique<VolatileDisk>();
     ASSERT_EQ(import_quietly(stick, *after, request).stage, ImportStage::Done);
     old_text.clear();
@@ -157,7 +157,7 @@ TEST_F(PowerCut, IntoAnEmptyFolderLeavesNothingOrTheSet) {
 }
 
 /// A rename replaces the damaged file.
-TEST_F(PowerCut, WhileADamagedFileIsMended) {
+TEST_F(PowerCut, DuringARepairLeavesTheOldOrTheRepairedSet) {
     VolatileDisk same;
     same.put("a.fspack", museum.pack("a", 2));
     Bytes damaged = **before.content(installed(before).packs.at(0).file);
@@ -184,7 +184,7 @@ TEST_F(PowerCut, WhileADamagedFileIsMended) {
     }
 }
 
-TEST_F(PowerCut, AndFaultsOfTheDiskAtEveryOperation) {
+TEST_F(PowerCut, DiskFaultsLeaveTheOldOrNewSet) {
     for (const int error : {ENOSPC, EIO, EROFS}) {
         for (const bool done : {false, true}) {
             for (int operation = 0; operation <= operations; ++operation) {
@@ -218,7 +218,7 @@ TEST_F(PowerCut, AndFaultsOfTheDiskAtEveryOperation) {
     }
 }
 
-TEST_F(PowerCut, OrAStickThatIsPulledAtEveryOperation) {
+TEST_F(PowerCut, APulledStickLeavesTheOldSet) {
     const int all = stick.operations;
     for (const int error : {EIO, ENODEV, ENXIO, ENODATA}) {
         for (int operation = 0; operation < all; ++operation) {
@@ -244,7 +244,7 @@ TEST_F(PowerCut, OrAStickThatIsPulledAtEveryOperation) {
 }
 
 /// Any of these contents may be returned by any read.
-TEST_F(PowerCut, OrAStickThatChangesBetweenTwoReads) {
+TEST_F(PowerCut, AChangingStickInstallsOnlyVerifiedPacks) {
     const Bytes right = **stick.content("a.fspack");
     Bytes altered = right;
     altered[altered.size() / 2] ^= std::byte{1};

@@ -39,7 +39,7 @@ std::string with_right_hash(const std::string& body) {
     return "frustumscreen-set 1 " + digits + "\n" + body;
 }
 
-TEST(SetFileText, IsReadAsItWasWritten) {
+TEST(SetFileText, RoundTrip) {
     const std::string text = write_set_file(a_file());
     EXPECT_EQ(parse_set_file(text).value(), a_file());
     EXPECT_EQ(text, with_right_hash(text.substr(text.find('\n') + 1)));
@@ -47,7 +47,7 @@ TEST(SetFileText, IsReadAsItWasWritten) {
     EXPECT_EQ(parse_set_file(write_set_file(first)).value(), first);
 }
 
-TEST(SetFileText, NoAlteredByteIsBelieved) {
+TEST(SetFileText, RejectsEveryAlteredByte) {
     const std::string text = write_set_file(a_file());
     for (std::size_t k = 0; k < text.size(); ++k) {
         std::string altered = text;
@@ -58,7 +58,7 @@ TEST(SetFileText, NoAlteredByteIsBelieved) {
     EXPECT_FALSE(parse_set_file(text + "\n"));
 }
 
-TEST(SetFileText, LeadsToNoOtherFile) {
+TEST(SetFileText, RejectsOtherFilePaths) {
     std::string body = write_set_file(a_file());
     body = body.substr(body.find('\n') + 1);
     for (const std::string file : {"../../etc/passwd", "/etc/passwd", "packs/x.fspack", ""}) {
@@ -70,7 +70,7 @@ TEST(SetFileText, LeadsToNoOtherFile) {
     EXPECT_TRUE(parse_set_file(with_right_hash(body)));
 }
 
-TEST(SetToShow, IsTheLastGoodOneOnlyWhereTheNewOneFailed) {
+TEST(SetToShow, IsTheLastGoodOneOnlyIfTheNewOneFailed) {
     const SetChoice choice{a_set(7), a_set(6)};
     const auto shown = [&](const std::optional<SetVerdict>& verdict) {
         return set_to_show(choice, verdict).number;
@@ -85,7 +85,7 @@ TEST(SetToShow, IsTheLastGoodOneOnlyWhereTheNewOneFailed) {
     EXPECT_EQ(set_to_show({a_set(7), std::nullopt}, SetVerdict{7, TrialState::Bad, 9, ""}).number, 7U);
 }
 
-TEST(VerdictText, IsReadAsItWasWritten) {
+TEST(VerdictText, RoundTrip) {
     const SetVerdict verdict{3, TrialState::Bad, 2, "the vase cannot be shown"};
     EXPECT_EQ(parse_verdict(write_verdict(verdict)).value(), verdict);
     EXPECT_FALSE(parse_verdict(""));
@@ -93,7 +93,7 @@ TEST(VerdictText, IsReadAsItWasWritten) {
     EXPECT_FALSE(parse_verdict(R"({"number":-3,"verdict":"bad","starts":0,"reason":""})"));
 }
 
-TEST(ReportText, IsReadAsItWasWrittenAndPrintable) {
+TEST(ReportText, RoundTripWithPrintableText) {
     ImportReport report{"17-4", "MUSEUM", ImportStage::Copying, 5, 10, ImportRefusal::None, "", 4, {}};
     report.packs = {{"a.fspack", "A vase", ImportOutcome::Taken, ImportRefusal::None, ""},
                     {"b.fspack", "", ImportOutcome::Refused, ImportRefusal::TooMuch, "too much"}};
@@ -106,7 +106,7 @@ TEST(ReportText, IsReadAsItWasWrittenAndPrintable) {
     EXPECT_FALSE(parse_import_report("[1, 2"));
 }
 
-TEST(StickWalk, KnowsWhatSystemsLeaveOnSticks) {
+TEST(StickWalk, IgnoresSystemFilesAndFolders) {
     for (const std::string name :
          {"._vase.fspack", ".Trashes", ".Spotlight-V100", ".Trash-1000", "$RECYCLE.BIN", "$Recycle.Bin",
           "RECYCLER", "System Volume Information", "lost+found"}) {

@@ -61,7 +61,7 @@ protected:
     pack::SecretKey key = pack::SecretKey::make(), other = pack::SecretKey::make();
 };
 
-TEST_F(SettingsProgram, BelievesAnybodyUntilTheyNameAKeyThenTheKeyAlone) {
+TEST_F(SettingsProgram, AcceptsUnsignedSettingsUntilTheyNameAKey) {
     const std::string first = "# the museum's\r\n[table]\r\nwidth_m = 0.7\r\n";
     fill(first, key, 0);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
@@ -96,7 +96,7 @@ TEST_F(SettingsProgram, BelievesAnybodyUntilTheyNameAKeyThenTheKeyAlone) {
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
 }
 
-TEST_F(SettingsProgram, TwoBadSticksInARowLeadBackToSettingsThatWereProved) {
+TEST_F(SettingsProgram, KeepsProvedSettingsAfterTwoBadSticks) {
     put("settings/kiosk.toml.proved", shipped);
     const std::string bad = "[table]\nwidth_m = 0.5\n", worse = "[table]\nwidth_m = 0.4\n";
     for (const std::string& settings : {bad, worse}) {
@@ -111,14 +111,14 @@ TEST_F(SettingsProgram, TwoBadSticksInARowLeadBackToSettingsThatWereProved) {
     EXPECT_EQ(text("settings/kiosk.toml.before"), worse);
 }
 
-TEST_F(SettingsProgram, TheFirstSignatureKeepsOlderOnesOutToo) {
+TEST_F(SettingsProgram, TheFirstSerialRefusesOlderSettings) {
     fill(naming(key), key, 50);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
     fill(naming(key, "# older\n"), key, 49);
     expect_refused(ImportRefusal::Older, "50");
 }
 
-TEST_F(SettingsProgram, AKeyThatHasEndedSignsNothingAndOpensNothing) {
+TEST_F(SettingsProgram, AnExpiredKeyRefusesSignedAndUnsignedSettings) {
     put("settings/kiosk.toml", naming(key, "until = \"2020-12-31\"\n"));
     fill(shipped, key, 5);
     expect_refused(ImportRefusal::WrongKey, "2020-12-31");
@@ -126,7 +126,7 @@ TEST_F(SettingsProgram, AKeyThatHasEndedSignsNothingAndOpensNothing) {
     expect_refused(ImportRefusal::Unsigned, "");
 }
 
-TEST_F(SettingsProgram, SaysWhichLineIsWrong) {
+TEST_F(SettingsProgram, ReportsErrorsWithTheirLine) {
     fill("[table]\nwidth_m = 0.7\ndepth_m = \"half\"\n", key, 0);
     expect_refused(ImportRefusal::NotAPack, "line 3");
     fill("[table\n", key, 0);
@@ -139,7 +139,7 @@ TEST_F(SettingsProgram, SaysWhichLineIsWrong) {
     EXPECT_NE(text("err.txt").find(reason.substr(reason.find(": ") + 2)), std::string::npos) << reason;
 }
 
-TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
+TEST_F(SettingsProgram, RefusesLargeAndIrregularFiles) {
     fill(std::string((64U << 10U) - 1, '#') + "\n", key, 0);
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken);
     fill(std::string((64U << 10U) + 1, '#'), key, 0);
@@ -159,7 +159,7 @@ TEST_F(SettingsProgram, RefusesWhatIsNoSmallFile) {
 }
 
 /// A stick that is pulled from the office computer too early has such files.
-TEST_F(SettingsProgram, RefusesAnEmptyFileAndOneThatIsCutOff) {
+TEST_F(SettingsProgram, RefusesEmptyAndTruncatedFiles) {
     const std::string whole = "[table]\nwidth_m = 0.7\n# the end of a comment\n";
     for (const std::string& empty : {std::string(), std::string("\r\n \n"), std::string(300, '\0')}) {
         fill(empty, key, 0);
@@ -171,7 +171,7 @@ TEST_F(SettingsProgram, RefusesAnEmptyFileAndOneThatIsCutOff) {
     EXPECT_EQ(put_in().outcome, ImportOutcome::Taken) << "a signature vouches for the file's end";
 }
 
-TEST_F(SettingsProgram, TellsOfNearlyRightNames) {
+TEST_F(SettingsProgram, ReportsNearlyRightNames) {
     for (const std::string name : {"kiosk.toml.txt", "Kiosk.toml", "kiosk (1).toml", "set/kiosk.toml"}) {
         std::filesystem::remove_all(folder / "stick");
         std::filesystem::create_directories(folder / "stick/set");
@@ -193,7 +193,7 @@ TEST_F(SettingsProgram, TellsOfNearlyRightNames) {
         << "where there is one, others are no matter";
 }
 
-TEST_F(SettingsProgram, ThePacksOfTheSameStickAreSignedWithTheKeyThatItBrings) {
+TEST_F(SettingsProgram, AcceptsPacksSignedWithTheKeyOfTheSameStick) {
     const testing_disk::Museum museum;
     fill(naming(museum.key), key, 0);
     ASSERT_TRUE(write_file(folder / "stick/vase.fspack", museum.pack("vase", 1)));
@@ -203,7 +203,7 @@ TEST_F(SettingsProgram, ThePacksOfTheSameStickAreSignedWithTheKeyThatItBrings) {
     EXPECT_EQ(report->packs[1].outcome, ImportOutcome::Taken) << report->packs[1].reason;
 }
 
-TEST_F(SettingsProgram, NothingIsLostWhereTheyCannotBeWritten) {
+TEST_F(SettingsProgram, KeepsTheSettingsIfNewOnesCannotBeWritten) {
     fill(naming(key), key, 7);
     // The folder is read-only, for root too.
     static_cast<void>(std::system(
@@ -228,7 +228,7 @@ TEST_F(SettingsProgram, NothingIsLostWhereTheyCannotBeWritten) {
     EXPECT_EQ(text("settings/kiosk.toml.before"), shipped);
 }
 
-TEST_F(SettingsProgram, SpoiltSettingsDoNotOpenTheDoor) {
+TEST_F(SettingsProgram, DamagedSettingsDoNotAcceptUnsignedOnes) {
     put("settings/kiosk.toml", "[exhi");
     fill(shipped, key, 0);
     expect_refused(ImportRefusal::Unwritable, "damaged");
@@ -239,7 +239,7 @@ TEST_F(SettingsProgram, SpoiltSettingsDoNotOpenTheDoor) {
     EXPECT_EQ(text("settings/kiosk.toml.before"), naming(key)) << "what is spoilt is nothing to go back to";
 }
 
-TEST_F(SettingsProgram, SignsThemUnlessThereIsAMistake) {
+TEST_F(SettingsProgram, PackSignSignsOnlyValidSettings) {
     ASSERT_EQ(run("frustumscreen-pack keygen -o museum"), 0);
     put("stick/kiosk.toml", shipped);
     ASSERT_EQ(run("frustumscreen-pack sign stick/kiosk.toml --key museum.key --serial 3"), 0)

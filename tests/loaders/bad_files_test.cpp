@@ -51,7 +51,7 @@ constexpr BadFile bad_files[] = {
     {"tri/models/notenoughindices.obj", nullptr, 1},
 };
 
-TEST(BadFiles, EachIsRefusedInOneLineThatSaysWhyOrIsUsable) {
+TEST(BadFiles, EachIsRejectedInOneLineOrUsable) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     for (const BadFile& file : bad_files) {
         SCOPED_TRACE(file.path);

@@ -55,7 +55,7 @@ TEST(DecodeImage, BmpTgaAndTiffGiveTheSamePicture) {
     }
 }
 
-TEST(DecodeImage, AnAlphaInATiffLeavesTheColoursAsTheyAre) {
+TEST(DecodeImage, TiffAlphaDoesNotChangeColours) {
     image::Image8 truth = smooth_picture(32, 16);
     for (std::size_t k = 0; k < truth.texels.size(); ++k) {
         truth.texels[k].a = static_cast<std::uint8_t>(k % 256);
@@ -75,7 +75,7 @@ TEST(DecodeImage, AnAlphaInATiffLeavesTheColoursAsTheyAre) {
     }
 }
 
-TEST(DecodeImage, SizesThatTheBytesDoNotHoldAreRefused) {
+TEST(DecodeImage, RejectsInvalidHeaders) {
     const image::Image8 truth = smooth_picture(64, 64);
     const auto altered = [](std::string bytes, std::size_t place, const std::string& with) {
         return bytes.replace(place, with.size(), with);
@@ -94,7 +94,7 @@ TEST(DecodeImage, SizesThatTheBytesDoNotHoldAreRefused) {
     }
 }
 
-TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
+TEST(DecodeImage, ReadsPngsOfEveryDepthAsSrgbAndIgnoresGamma) {
     for (const int depth : {1, 2, 4, 8, 16}) {
         for (const bool gamma : {false, true}) {
             const std::string png = grey_ramp_png(depth, gamma);
@@ -111,7 +111,7 @@ TEST(DecodeImage, PngsOfEveryDepthAreReadAsSrgbWhateverTheirGammaNoteSays) {
     }
 }
 
-TEST(DecodeImage, TruncatedPicturesAreDamaged) {
+TEST(DecodeImage, RejectsTruncatedPictures) {
     const image::Image8 truth = smooth_picture(64, 64);
     for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth),
                                      bmp_of(truth), tga_of(truth), tga_of(truth, true)}) {
@@ -123,7 +123,7 @@ TEST(DecodeImage, TruncatedPicturesAreDamaged) {
     }
 }
 
-TEST(DecodeImage, APictureBeyondTheLimitIsRefusedBeforeItIsUnpacked) {
+TEST(DecodeImage, RejectsAPictureBeyondTheLimitAndNamesItsSize) {
     const image::Image8 truth = smooth_picture(64, 64);
     for (const std::string& whole : {png_of(truth), webp_of(truth), jpeg_of(truth), tiff_of(truth),
                                      bmp_of(truth), tga_of(truth), tga_of(truth, true)}) {
@@ -152,7 +152,7 @@ TEST(DecodeImage, ALargePictureIsHalvedUntilItFits) {
     }
 }
 
-TEST(DecodeImage, PicturesAreShrunkWhileTheyAreDecoded) {
+TEST(DecodeImage, ShrinksJpegPngAndTiffWhileDecoding) {
     const PictureForm rgb{.channels = Channels::Rgb};
     const image::Image8 truth = random_picture_for(rgb, 512, 512, 1);
     constexpr std::int64_t memory = 512 * 64; // of the whole picture there is no room
@@ -192,7 +192,7 @@ void expect_texels(const std::string& file, const image::Image8& truth, const st
     }
 }
 
-TEST(DecodeImage, PicturesOfEveryFormAndSizeAreHalvedAsWholeOnesAre) {
+TEST(DecodeImage, ShrinkingWhileDecodingEqualsHalvingTheWholePicture) {
     int refused = 0;
     const std::vector<glm::ivec2> sizes{{37, 53}, {64, 130}, {1, 9}, {101, 1}};
     for (const glm::ivec2& size : sizes) {
@@ -237,7 +237,7 @@ TEST(DecodeImage, PicturesOfEveryFormAndSizeAreHalvedAsWholeOnesAre) {
     EXPECT_EQ(refused, 4 * 5 + 3 * 2);
 }
 
-TEST(DecodeImage, OtherFormsAreNamedAsUnreadable) {
+TEST(DecodeImage, RejectsUnknownFormats) {
     for (const std::string_view bytes : {"", "GIF89a", "RIFF1234WAVE", "\xff"}) {
         EXPECT_FALSE(bake::decode_image(as_bytes(bytes)).has_value());
     }

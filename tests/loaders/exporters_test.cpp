@@ -56,12 +56,12 @@ TEST(Exporters, KeywordsOfMaterialsMayHaveAnyCaseAndAByteOrderMark) {
     }
 }
 
-TEST(Exporters, AKeywordOfMaterialsThatNobodyKnowsIsTold) {
+TEST(Exporters, ReportsUnknownMtlKeywords) {
     const bake::SourceMesh mesh = obj_with("newmtl m\nmap_Kdd wood.png\nglitter 3\n", "usemtl m\nf 1 2 3\n");
     EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "glitter, map_Kdd"));
 }
 
-TEST(Exporters, EveryMtlKeywordIsReadOrToldOrOnlyShines) {
+TEST(Exporters, ReportsMtlKeywordsThatAffectThePicture) {
     const bake::SourceMesh plain = obj_with("newmtl m\n", "usemtl m\n" + textured_face);
     for (const std::string keyword : {"Ks 1 1 1", "Ka 1 0 0", "Ns 9", "Ni 1.5", "illum 2", "Pr 0.5",
                                       "map_Pr wood.png", "map_Ks wood.png", "refl wood.png", "sharpness 9"}) {
@@ -78,7 +78,7 @@ TEST(Exporters, EveryMtlKeywordIsReadOrToldOrOnlyShines) {
     EXPECT_TRUE(plain.notes.empty());
 }
 
-TEST(Exporters, AnObjWithoutUsemtlHasTheOnlyMaterial) {
+TEST(Exporters, ObjWithoutUsemtlUsesTheOnlyMaterial) {
     const bake::SourceMesh mesh = obj_with("newmtl m\nmap_Kd wood.png\n", textured_face);
     EXPECT_TRUE(shows_wood(mesh));
     EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Guessed, "\"m\""));
@@ -86,7 +86,7 @@ TEST(Exporters, AnObjWithoutUsemtlHasTheOnlyMaterial) {
     EXPECT_TRUE(notes(two, bake::SourceNote::Kind::Lost, "has 2")) << "which of two is not known";
 }
 
-TEST(Exporters, ALineMtllibMayNameSeveralFilesWithBlanksInThem) {
+TEST(Exporters, MtllibMayNameSeveralFilesWithBlanks) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl red\nKd 1 0 0\n");
     folder.write("my own.mtl", "newmtl blue\nKd 0 0 1\n");
@@ -106,7 +106,7 @@ TEST(Exporters, ALineMtllibMayNameSeveralFilesWithBlanksInThem) {
     EXPECT_EQ(half.materials[0].base_colour, expected.first);
 }
 
-TEST(Exporters, APictureIsAlsoLookedForBesideItsMtl) {
+TEST(Exporters, FindsAPictureBesideItsMtl) {
     const TemporaryFolder folder;
     folder.write("materials/model.mtl", "newmtl m\nmap_Kd wood.png\n");
     folder.write("materials/wood.png", png_of(image::Image8(1, 1, wood_code)));
@@ -116,7 +116,7 @@ TEST(Exporters, APictureIsAlsoLookedForBesideItsMtl) {
     EXPECT_TRUE(mesh.notes.empty());
 }
 
-TEST(Exporters, NamesCompareByTheirNormalFormTheirCaseAndTheirCodePage) {
+TEST(Exporters, MatchesFileNamesAcrossNormalizationCaseAndCodePage) {
     // "Büste Grün.png": composed, decomposed, in capitals, in Windows-1252.
     const std::string composed = "B\xC3\xBCste Gr\xC3\xBCn.png";
     const std::string decomposed = "Bu\xCC\x88ste Gru\xCC\x88n.png";
@@ -133,7 +133,7 @@ TEST(Exporters, NamesCompareByTheirNormalFormTheirCaseAndTheirCodePage) {
     }
 }
 
-TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
+TEST(Exporters, ColoursAboveOneAreCodesTo255InTheWholeFile) {
     const bake::SourceMesh codes =
         sound(load_text("model.obj", "v 0 0 0 188 0 1\nv 1 0 0 1 0 0\nv 0 1 0 255 255 255\nf 1 2 3\n"));
     const bake::SourceMesh shares = sound(
@@ -156,7 +156,7 @@ TEST(Exporters, ColoursAboveOneMeanCodesTo255InTheWholeFile) {
 
 // Wavefront's Appendix B1 (Object Files, 3.0): "v x y z w", where w is 1 by default; "vt u v w", where w is the depth of a
 // texture of three dimensions. "v x y z r g b" and "v x y z r g b a" are written by many programs.
-TEST(Exporters, NumbersThatAVertexHasBesidesAreToldIfTheyCouldChangeThePicture) {
+TEST(Exporters, ReportsExtraVertexNumbersThatCouldChangeThePicture) {
     const auto with = [](const std::string& vertex, const std::string& uv) {
         return sound(load_text("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0" + vertex + "\nvt 0.5 0.5" + uv +
                                                 "\nf 1/1 2/1 3/1\n"));
@@ -179,13 +179,13 @@ TEST(Exporters, NumbersThatAVertexHasBesidesAreToldIfTheyCouldChangeThePicture) 
                       "after u v w of 1 texture coordinate, first in line 4"));
 }
 
-TEST(Exporters, ATextureCoordinateWithTheNumberZeroIsNone) {
+TEST(Exporters, TextureCoordinateIndexZeroIsDroppedAndReported) {
     const bake::SourceMesh mesh = obj_with("newmtl m\nKd 1 0 0\n", "usemtl m\nf 1/0 2/0 3/0\n");
     EXPECT_EQ(mesh.triangles.size(), 1U);
     EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "3 corners"));
 }
 
-TEST(Exporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
+TEST(Exporters, EmissionReplacesAMissingColour) {
     const bake::SourceMesh picture =
         obj_with("newmtl m\nKd 0 0 0\nmap_Ke wood.png\n", "usemtl m\n" + textured_face);
     EXPECT_TRUE(shows_wood(picture));
@@ -198,7 +198,7 @@ TEST(Exporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
     EXPECT_TRUE(notes(both, bake::SourceNote::Kind::Lost, "own light of the material"));
 }
 
-TEST(Exporters, WhatOfAMaterialIsNotShownIsTold) {
+TEST(Exporters, ReportsMaterialFeaturesThatAreNotShown) {
     for (const auto& [line, words] :
          std::vector<std::pair<std::string, std::string>>{{"bump wood.png", "relief"},
                                                           {"norm wood.png", "relief"},
@@ -218,7 +218,7 @@ TEST(Exporters, WhatOfAMaterialIsNotShownIsTold) {
         << "shine changes no colour";
 }
 
-TEST(Exporters, ALineThatNoObjHasIsTold) {
+TEST(Exporters, ReportsUnknownObjLines) {
     EXPECT_TRUE(notes(sound(load_text("model.obj", triangle + "f 1 2 3\nfoo 1\n")),
                       bake::SourceNote::Kind::Lost, "foo"));
     EXPECT_TRUE(
@@ -256,7 +256,7 @@ TEST(Exporters, PlyColoursHaveManyNames) {
     }
 }
 
-TEST(Exporters, OfTwoPlyColoursThePlainOneCounts) {
+TEST(Exporters, PlainPlyColourTakesPrecedenceOverDiffuse) {
     const bake::SourceMesh mesh =
         sound(load_text("model.ply", ply(colours("uchar", "diffuse_red", "diffuse_green", "diffuse_blue") +
                                              colours("uchar", "red", "green", "blue"),
@@ -295,7 +295,7 @@ TEST(Exporters, PlyWholeNumbersMayHave64Bits) {
         << "a byte order mark";
 }
 
-TEST(Exporters, WhatOfAPlyIsNotUsedIsTold) {
+TEST(Exporters, ReportsUnusedPlyProperties) {
     EXPECT_TRUE(notes(sound(load_text("model.ply", ply("property float shininess\n", "1"))),
                       bake::SourceNote::Kind::Lost, "shininess"));
     EXPECT_TRUE(notes(sound(load_text("model.ply", ply("property uchar red\n", "1"))),

@@ -83,7 +83,7 @@ protected:
     const fs::path folder = "film_file_test";
 };
 
-TEST_F(FilmFile, an_animation_has_its_frames_and_its_rate) {
+TEST_F(FilmFile, reads_frames_and_rate_of_an_animation) {
     const std::vector<image::Image8> frames{picture(16, 8, 1), picture(16, 8, 2), picture(16, 8, 3)};
     const fs::path film = put("growth.webp", animation(frames, {80, 80, 80}));
     const Result<FilmOutline> outline = outline_of_film(film, limits);
@@ -103,7 +103,7 @@ TEST_F(FilmFile, an_animation_has_its_frames_and_its_rate) {
     EXPECT_EQ(outline_of_film(uneven, limits)->rate_hz, 7.5);
 }
 
-TEST_F(FilmFile, pictures_of_a_folder_come_by_their_number) {
+TEST_F(FilmFile, sorts_pictures_of_a_folder_by_number) {
     for (const int number : {10, 9, 1}) {
         put_picture(fmt::format("frames/f{}.png", number), picture(8, 8, number));
     }
@@ -118,7 +118,7 @@ TEST_F(FilmFile, pictures_of_a_folder_come_by_their_number) {
     EXPECT_EQ(outline_of_film(folder / "frames", limits)->rate_hz, std::nullopt);
 }
 
-TEST_F(FilmFile, what_is_no_film_is_told_in_one_sentence) {
+TEST_F(FilmFile, rejects_invalid_films_in_one_line) {
     const std::vector<image::Image8> two{picture(16, 8, 1), picture(16, 8, 2)};
     const std::string good = animation(two, {40, 40});
     ASSERT_EQ(refusal(put("good.webp", good)), "");

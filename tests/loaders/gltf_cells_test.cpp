@@ -57,14 +57,14 @@ void expect_triangles_at_rest(const bake::SourceMesh& mesh, std::size_t from = 0
     }
 }
 
-TEST(GltfCells, AFileThatDoesNotMoveAndHasOnePartHasNoNodes) {
+TEST(GltfCells, StillFileWithOnePartHasNoNodes) {
     for (const char* nodes : {R"({"mesh":0})", R"({"children":[1]},{"mesh":0,"translation":[1,2,3]})"}) {
         const bake::SourceMesh mesh = mesh_of(file_with(nodes));
         EXPECT_TRUE(mesh.nodes.empty() && mesh.triangle_nodes.empty() && mesh.animations.empty());
     }
 }
 
-TEST(GltfCells, AStillAncestorWithoutTrianglesIsFolded) {
+TEST(GltfCells, FoldsStillAncestorsWithoutTriangles) {
     const bake::SourceMesh mesh = mesh_of(file_with(
         R"({"name":"table","scale":[2,2,2],"children":[1]},{"translation":[0,0,1],"children":[2,3]},)"
         R"({"name":"jar","mesh":0,"translation":[5,0,0],"children":[4]},{"mesh":0,"rotation":[0,0,2,0]},)"
@@ -83,7 +83,7 @@ TEST(GltfCells, AStillAncestorWithoutTrianglesIsFolded) {
     expect_triangles_at_rest(mesh);
 }
 
-TEST(GltfCells, AnyTreeHasItsTrianglesWhereTheFileHasThem) {
+TEST(GltfCells, RandomTreesKeepTheirTrianglePositions) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-2.0, 2.0);
     std::size_t compared = 0;
@@ -119,7 +119,7 @@ TEST(GltfCells, AnyTreeHasItsTrianglesWhereTheFileHasThem) {
     EXPECT_GT(compared, 300U);
 }
 
-TEST(GltfCells, AMeshWithASkinStandsStillInARootOfItsOwn) {
+TEST(GltfCells, SkinnedMeshGetsAStillRootOfItsOwn) {
     std::string bytes;
     for (int vertex = 0; vertex < 3; ++vertex) {
         bytes += bytes_of(std::vector<std::uint8_t>{0, 0, 0, 0});
@@ -163,7 +163,7 @@ TEST(GltfCells, AllInstancesOfANodeAreOneCell) {
     EXPECT_EQ(mesh.triangle_nodes, (std::vector<std::uint32_t>{0, 0, 1}));
 }
 
-TEST(GltfCells, AFileWithTooManyPartsIsJoinedFromTheDeepestOn) {
+TEST(GltfCells, JoinsTheDeepestPartsOfAFileWithTooMany) {
     // 100 shelves in a row, each with a jar and in it a spoon: 300 parts. The last spoon moves.
     std::string nodes;
     std::string roots;
@@ -194,7 +194,7 @@ TEST(GltfCells, AFileWithTooManyPartsIsJoinedFromTheDeepestOn) {
     EXPECT_LT(glm::length(glm::dvec3(spoon[3]) - glm::dvec3(99, 1, 1)), 1e-12);
 }
 
-TEST(GltfCells, ManyRootsAreJoinedToTheFirstThatStandsStill) {
+TEST(GltfCells, JoinsExcessRootsToTheFirstStillRoot) {
     std::string nodes = R"({"name":"lid","mesh":0,"children":[1]},{"mesh":0,"translation":[0,0,4]})";
     for (int k = 2; k < 600; ++k) {
         nodes += fmt::format(R"(,{{"mesh":0,"translation":[{},0,0]}})", k);

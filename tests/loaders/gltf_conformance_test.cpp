@@ -90,7 +90,7 @@ TEST(GltfConformance, NestedNodesMultiply) {
     EXPECT_NEAR(volume_of(mesh), volume, 1e-9);
 }
 
-TEST(GltfConformance, TheTextureTransformTestPointsAtItsMarkers) {
+TEST(GltfConformance, TextureTransformTestMatchesItsMarkers) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     const bake::SourceMesh mesh = conformance_model("TextureTransformTest");
     // The model has a marker where the arrow's tip must appear. Untransformed, the tip is at the "not

@@ -55,7 +55,7 @@ const bake::SourceMaterial& material_of(const bake::SourceMesh& mesh) {
     return mesh.materials[mesh.triangle_materials[0]];
 }
 
-TEST(GltfExporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
+TEST(GltfExporters, EmissionReplacesAMissingColour) {
     for (
         const char* material :
         {R"({"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})",
@@ -75,7 +75,7 @@ TEST(GltfExporters, LightOfItsOwnStandsForAColourThatIsNotThere) {
         glm::vec3(0.5F, 0.25F, 1.0F));
 }
 
-TEST(GltfExporters, LightBesideAColourIsTold) {
+TEST(GltfExporters, ReportsEmissionBesideAColour) {
     const bake::SourceMesh mesh = with_material(
         R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})");
     EXPECT_TRUE(notes(mesh, bake::SourceNote::Kind::Lost, "emission"));
@@ -84,7 +84,7 @@ TEST(GltfExporters, LightBesideAColourIsTold) {
     EXPECT_TRUE(none.notes.empty()) << "without a factor the light is black";
 }
 
-TEST(GltfExporters, UnlitMaterialsAreSaidOfTheMeshAndAMixtureIsTold) {
+TEST(GltfExporters, MarksUnlitMeshesAndReportsMixtures) {
     EXPECT_TRUE(with_material(R"({"extensions":{"KHR_materials_unlit":{}}})").is_unlit);
     EXPECT_FALSE(with_material("{}").is_unlit);
     const bake::SourceMesh mixed = mesh_of(gltf_text(
@@ -97,7 +97,7 @@ TEST(GltfExporters, UnlitMaterialsAreSaidOfTheMeshAndAMixtureIsTold) {
     EXPECT_TRUE(notes(mixed, bake::SourceNote::Kind::Lost, "unlit"));
 }
 
-TEST(GltfExporters, ATransparencyOfAllOrNothingIsCutOut) {
+TEST(GltfExporters, BinaryTransparencyBecomesACutOut) {
     const std::string blend =
         R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
     image::Image8 picture(10, 10, glm::u8vec4(10, 20, 30, 255));
@@ -119,7 +119,7 @@ TEST(GltfExporters, ATransparencyOfAllOrNothingIsCutOut) {
         bake::SourceNote::Kind::Lost, "opaque"));
 }
 
-TEST(GltfExporters, InstancesStandWhereTheirRowsSay) {
+TEST(GltfExporters, PlacesInstancesByTheirAttributes) {
     const bake::SourceMesh mesh = with_nodes(
         R"({"mesh":0,"translation":[0,0,1],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":2,"ROTATION":3,"SCALE":4}}}})",
         R"(,"extensionsUsed":["EXT_mesh_gpu_instancing"],"extensionsRequired":["EXT_mesh_gpu_instancing"])");
@@ -157,7 +157,7 @@ TEST(GltfExporters, AHiddenNodeHidesAllBelowIt) {
         with_nodes(R"({"mesh":0,"extensions":{"KHR_node_visibility":{"visible":true}}})").notes.empty());
 }
 
-TEST(GltfExporters, AnExtensionThatIsNotReadIsTold) {
+TEST(GltfExporters, ReportsUnsupportedExtensions) {
     EXPECT_TRUE(notes(with_nodes(R"({"mesh":0})", R"(,"extensionsUsed":["ACME_twist"])"),
                       bake::SourceNote::Kind::Lost, "ACME_twist"));
     EXPECT_TRUE(notes(with_nodes(R"({"mesh":0,"extensions":{"ACME_bend":{"by":3}}})"),
@@ -201,7 +201,7 @@ std::string lost_attributes(const std::string& attributes, std::string_view node
 
 // glTF 2.0, 3.7.2.1 and 3.9.2: COLOR_0 multiplies the base colour, a material names its TEXCOORD, TANGENT serves normal maps,
 // 3.7.3: JOINTS and WEIGHTS serve the skin of a node, in as many sets of each; names with _ belong to an application.
-TEST(GltfExporters, AttributesThatCannotChangeThePictureAreNotTold) {
+TEST(GltfExporters, DoesNotReportAttributesWithoutEffect) {
     EXPECT_EQ(lost_attributes(""), "");
     EXPECT_EQ(lost_attributes(R"(,"NORMAL":0,"TANGENT":3,"COLOR_0":3)"), "");
     EXPECT_EQ(lost_attributes(R"(,"TEXCOORD_0":1,"TEXCOORD_1":1)"), "");
@@ -215,7 +215,7 @@ TEST(GltfExporters, AttributesThatCannotChangeThePictureAreNotTold) {
     EXPECT_EQ(lost_attributes(R"(,"_FEATURE_ID_0":2,"_TEMPERATURE":2)"), "");
 }
 
-TEST(GltfExporters, AttributesThatMayBeColoursOrShapeAreToldOnceByName) {
+TEST(GltfExporters, ReportsUnusedColourAndShapeAttributesOnce) {
     const auto begins = [](const std::string& text, const std::string& names) {
         return text.starts_with("the vertex attributes " + names + ": ");
     };

@@ -57,7 +57,7 @@ TEST(GltfMovements, AnAnimationKeepsItsKeys) {
     EXPECT_EQ(codes.values, (std::vector<glm::vec4>{{0, 0, 0, 1}, {0, 0, -1, 0}}));
 }
 
-TEST(GltfMovements, TwoAnimationsMayMoveOneNodeAndHaveNamesOfTheirOwn) {
+TEST(GltfMovements, AnimationsOfOneNodeGetUniqueNames) {
     const std::string one = animation(0, "rotation", "LINEAR", "open");
     const std::string unnamed =
         R"({"samplers":[{"input":1,"output":2}],"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}}]})";
@@ -72,7 +72,7 @@ TEST(GltfMovements, TwoAnimationsMayMoveOneNodeAndHaveNamesOfTheirOwn) {
     EXPECT_EQ(mesh.triangle_nodes, (std::vector<std::uint32_t>{0}));
 }
 
-TEST(GltfMovements, WhatIsNotKeptIsToldByName) {
+TEST(GltfMovements, ReportsDroppedAnimationsByName) {
     const std::vector<Numbers> numbers{times({0, 1}), vectors({0, 0, 0, 1, 0, 0})};
     const auto told = [&](const std::string& nodes, const std::string& channel, std::string_view words) {
         const bake::SourceMesh mesh = mesh_of(file_with(
@@ -91,7 +91,7 @@ TEST(GltfMovements, WhatIsNotKeptIsToldByName) {
     told(R"({"mesh":0},{"name":"camera"})", R"("node":1,"path":"translation")", "without triangles");
 }
 
-TEST(GltfMovements, AnimationsBeyondTheLimitsOfAWorldAreTold) {
+TEST(GltfMovements, ReportsAnimationsBeyondTheLimits) {
     std::string many;
     for (std::size_t k = 0; k <= world::max_behaviours; ++k) {
         many += (k == 0 ? "" : ",") + animation(0, "translation", "LINEAR", "again");
@@ -195,7 +195,7 @@ TEST(GltfMovements, TheInterpolationTestMovesNineCubes) {
     EXPECT_FALSE(notes(mesh, lost, "movements"));
 }
 
-TEST(GltfMovements, TheFoxsThreeAnimationsAreOfItsJoints) {
+TEST(GltfMovements, ReportsTheFoxsSkinAnimationsAndCountsNodes) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     const bake::SourceMesh fox = sound(bake::load_mesh(shared_data() / "models/fox_animated/Fox.glb"));
     EXPECT_TRUE(fox.nodes.empty() && fox.animations.empty());

@@ -47,7 +47,7 @@ TEST(Gltf, TransformsMultiplyFromTheRootDown) {
     EXPECT_LT(glm::length(mesh.positions[2] - glm::dvec3(8, 0, 2)), 1e-12);
 }
 
-TEST(Gltf, AMirroringNodeKeepsTheOutsideOutside) {
+TEST(Gltf, MirroringNodeKeepsTheTriangleOrientation) {
     const bake::SourceMesh plain =
         mesh_of(triangle_with(R"(,"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}])"));
     const bake::SourceMesh mirrored = mesh_of(triangle_with(
@@ -56,7 +56,7 @@ TEST(Gltf, AMirroringNodeKeepsTheOutsideOutside) {
     EXPECT_GT(normal_of(mirrored, 0).z, 0.0);
 }
 
-TEST(Gltf, TheDefaultSceneIsDrawnElseTheFirstElseEverything) {
+TEST(Gltf, UsesTheDefaultSceneElseTheFirstElseAllNodes) {
     const std::string nodes =
         R"(,"nodes":[{"mesh":0},{"mesh":0,"translation":[0,0,1]},{"mesh":0,"translation":[0,0,2]}])";
     const std::string scenes = R"(,"scenes":[{"nodes":[1]},{"nodes":[0,2]}])";
@@ -66,7 +66,7 @@ TEST(Gltf, TheDefaultSceneIsDrawnElseTheFirstElseEverything) {
     EXPECT_EQ(mesh_of(triangle_with("")).triangles.size(), 1U);
 }
 
-TEST(Gltf, FansAndStripsAreCutAsTheStandardSays) {
+TEST(Gltf, TriangulatesFansAndStripsByTheStandard) {
     const std::string bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     const auto text = [&](int mode) {
         return gltf_text(
@@ -87,7 +87,7 @@ TEST(Gltf, FansAndStripsAreCutAsTheStandardSays) {
     EXPECT_NE(error_of(load_text("model.gltf", text(1))).find("[mesh.point_cloud]"), std::string::npos);
 }
 
-TEST(Gltf, NormalisedIntegersAndStridesAreFollowed) {
+TEST(Gltf, ReadsNormalisedIntegersAndStrides) {
     // 16 bytes per vertex: signed 16-bit position, padding, 8-bit colour.
     std::string bytes;
     for (const std::array<std::int16_t, 4>& p :
@@ -111,7 +111,7 @@ TEST(Gltf, NormalisedIntegersAndStridesAreFollowed) {
     EXPECT_NE(error_of(load_text("model.gltf", undeclared)).find("KHR_mesh_quantization"), std::string::npos);
 }
 
-TEST(Gltf, MorphWeightsOfTheNodeGoBeforeThoseOfTheMesh) {
+TEST(Gltf, NodeMorphWeightsOverrideMeshMorphWeights) {
     const std::string text = gltf_text(
         triangle_bytes,
         std::string(one_view) +
@@ -122,7 +122,7 @@ TEST(Gltf, MorphWeightsOfTheNodeGoBeforeThoseOfTheMesh) {
     EXPECT_EQ(mesh.positions[4].x, 3.5);
 }
 
-TEST(Gltf, ASkinMixesItsJoints) {
+TEST(Gltf, SkinBlendsItsJointsByWeight) {
     std::string bytes = triangle_bytes;
     bytes += bytes_of(std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0});        // joints at 36
     bytes += bytes_of(std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0}); // weights at 48
@@ -140,7 +140,7 @@ TEST(Gltf, ASkinMixesItsJoints) {
     EXPECT_LT(glm::length(mesh.positions[2] - glm::dvec3(0, 1, 0.2 * 1 + 0.8 * 11)), 1e-12);
 }
 
-TEST(Gltf, DracoAndMeshoptGiveTheGridBack) {
+TEST(Gltf, DecodesDracoAndMeshopt) {
     for (const auto& [glb, tolerance] :
          {std::pair(draco_glb(9, true), 1.0 / 4096), std::pair(draco_glb(9, false), 1.0 / 4096),
           std::pair(meshopt_glb(9), 1e-5)}) {
@@ -159,7 +159,7 @@ TEST(Gltf, DracoAndMeshoptGiveTheGridBack) {
     }
 }
 
-TEST(Gltf, ARepeatedPackedStreamIsNotUnpackedWithoutEnd) {
+TEST(Gltf, LimitsRepeatedDecodingOfAPackedStream) {
     std::string glb = draco_glb(5, true);
     const std::string attributes = R"("attributes":{"POSITION":0}}}})";
     ASSERT_NE(glb.find(attributes), std::string::npos);
@@ -176,7 +176,7 @@ TEST(Gltf, ARepeatedPackedStreamIsNotUnpackedWithoutEnd) {
     EXPECT_NE(error_of(load_text("twice.glb", doubled(other))).find("again and again"), std::string::npos);
 }
 
-TEST(Gltf, ATransformedTextureTurnsCounterClockwiseWithVDownwards) {
+TEST(Gltf, TextureTransformRotatesCounterClockwise) {
     std::string bytes = triangle_bytes + bytes_of(std::vector<float>{0, 0, 1, 0, 0, 1});
     const std::size_t picture_at = bytes.size();
     const std::string picture = png_of(smooth_picture(2, 2));
@@ -272,7 +272,7 @@ TEST(Gltf, RefusalsNameThePlace) {
     }
 }
 
-TEST(Gltf, AChainOfAHundredThousandNodesIsFollowedWithoutRecursion) {
+TEST(Gltf, ReadsAChainOfAHundredThousandNodes) {
     std::string nodes;
     constexpr int count = 100'000;
     for (int i = 0; i + 1 < count; ++i) {
@@ -284,7 +284,7 @@ TEST(Gltf, AChainOfAHundredThousandNodesIsFollowedWithoutRecursion) {
         1U);
 }
 
-TEST(Gltf, InstancesBeyondAllMeasureAreRefusedBeforeTheyAreMade) {
+TEST(Gltf, RejectsExcessiveInstancesAndPositionsWithoutData) {
     std::string nodes;
     for (int i = 0; i < 180; ++i) {
         nodes += i == 0 ? R"({"mesh":0})" : R"(,{"mesh":0})";
@@ -313,7 +313,7 @@ TEST(Gltf, AnIndexBeyondTheVerticesIsRefused) {
         std::string::npos);
 }
 
-TEST(Gltf, ADamagedOrMissingPictureIsRefusedByName) {
+TEST(Gltf, RejectsADamagedOrMissingPictureThatIsUsed) {
     const TemporaryFolder folder;
     folder.write("torn.png", png_of(smooth_picture(8, 8)).substr(0, 60));
     const std::string text = triangle_with(

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t mib = std::size_t{1} << 20U;
 
-TEST(LargeFiles, PassedBytesAreGivenBackAndTheOthersStay) {
+TEST(LargeFiles, ReleasesPassedBytesAndKeepsTheOthers) {
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.write("model.bin", std::string(40 * mib, 'x'));
     Result<bake::ModelFile> file = bake::ModelFile::read(path);
@@ -32,7 +32,7 @@ TEST(LargeFiles, PassedBytesAreGivenBackAndTheOthersStay) {
     EXPECT_EQ(file->bytes().back(), std::byte{'x'});
 }
 
-TEST(LargeFiles, AnEmptyAndAMissingFileAreNoCrash) {
+TEST(LargeFiles, ReadsAnEmptyFileAndRejectsAMissingOne) {
     const TemporaryFolder folder;
     const Result<bake::ModelFile> empty = bake::ModelFile::read(folder.write("empty.obj", ""));
     ASSERT_TRUE(empty);
@@ -40,7 +40,7 @@ TEST(LargeFiles, AnEmptyAndAMissingFileAreNoCrash) {
     EXPECT_FALSE(bake::ModelFile::read(folder.path() / "nowhere.obj"));
 }
 
-TEST(LargeFiles, AFileOfMoreThanTheLimitIsRefusedUnread) {
+TEST(LargeFiles, RejectsAFileBeyondTheSizeLimit) {
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.write("model.obj", "v 0 0 0\n");
     std::filesystem::resize_file(path, bake::max_model_bytes + 1); // without blocks on the disk
@@ -117,7 +117,7 @@ std::string sheet_stl() {
     return file;
 }
 
-TEST(LargeFiles, AFileThatIsGivenBackWhileItIsReadGivesTheSameMesh) {
+TEST(LargeFiles, ReleasingBytesWhileReadingGivesTheSameMesh) {
     const TemporaryFolder folder;
     for (const auto& [name, text] :
          {std::pair("sheet.obj", sheet_obj()), {"sheet.ply", sheet_ply()}, {"sheet.stl", sheet_stl()}}) {
@@ -142,7 +142,7 @@ TEST(LargeFiles, AFileThatIsGivenBackWhileItIsReadGivesTheSameMesh) {
     }
 }
 
-TEST(LargeFiles, VertexNumbersAreThoseOfAMap) {
+TEST(LargeFiles, VertexNumbersMatchAMap) {
     bake::VertexNumbers numbers;
     std::map<bake::VertexNumbers::Key, std::uint32_t> truth;
     std::minstd_rand random(1);
@@ -161,7 +161,7 @@ TEST(LargeFiles, VertexNumbersAreThoseOfAMap) {
     EXPECT_EQ(numbers.find({40, 0, 0}), bake::VertexNumbers::none);
 }
 
-TEST(LargeFiles, PolygonsOfSeveralSizesStandInAnyOrder) {
+TEST(LargeFiles, ReadsPolygonsOfMixedSizes) {
     const Result<bake::SourceMesh> mesh =
         load_text("mixed.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
                                "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"

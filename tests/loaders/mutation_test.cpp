@@ -78,7 +78,7 @@ private:
     std::mt19937 random_;
 };
 
-TEST(Mutation, ThePatternsThemselvesLoad) {
+TEST(Mutation, UnchangedSamplesLoad) {
     for (const SampleModel& model : sample_models()) {
         const Result<bake::SourceMesh> mesh = load_text(model.name, model.bytes);
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
@@ -86,7 +86,7 @@ TEST(Mutation, ThePatternsThemselvesLoad) {
     }
 }
 
-TEST(Mutation, EightThousandDamagedModelsAreRefusedInOneLineOrSound) {
+TEST(Mutation, DamagedModelsAreRejectedInOneLineOrSound) {
     constexpr int mutants = 8000;
     const std::vector<SampleModel> models = sample_models();
     Mutator mutator(20240607);

@@ -12,7 +12,7 @@ void expect_near(const glm::vec3& a, const glm::vec3& b) {
     EXPECT_LT(glm::length(a - b), 1e-6F) << a.x << " " << a.y << " " << a.z;
 }
 
-TEST(Normals, OfAnObjSplitCornersThatHaveDifferentOnes) {
+TEST(Normals, ObjCornersWithDifferentNormalsAreSplit) {
     const Result<bake::SourceMesh> mesh = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                                                              "vn 0 0 2\nvn 0 -3 0\n"
                                                              "f 1//1 2//1 3//1\nf 1//-1 4//-1 2//-1\n");
@@ -27,7 +27,7 @@ TEST(Normals, OfAnObjSplitCornersThatHaveDifferentOnes) {
     }
 }
 
-TEST(Normals, OfAnObjThatAreMissingOrNoneAreLeftOut) {
+TEST(Normals, OmitsMissingOrInvalidObjNormals) {
     const Result<bake::SourceMesh> mesh =
         load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
                            "vn nan 0 1\nvn a b c\nvn 0 1\n"
@@ -44,7 +44,7 @@ TEST(Normals, OfAnObjThatAreMissingOrNoneAreLeftOut) {
     EXPECT_TRUE(plain->normals.empty()) << "no face names a normal";
 }
 
-TEST(Normals, OfAPlyHaveTwoSpellings) {
+TEST(Normals, ReadsBothSpellingsOfPlyNormals) {
     for (const auto& [x, y, z] :
          {std::array{"nx", "ny", "nz"}, std::array{"normal_x", "normal_y", "normal_z"}}) {
         const std::string text = fmt::format(
@@ -76,7 +76,7 @@ std::string gltf_with_normals(const std::vector<float>& normals, const std::stri
             4 * normals.size(), normals.size() / 3, node));
 }
 
-TEST(Normals, OfAGltfStandUprightOnAStretchedSurface) {
+TEST(Normals, GltfNormalsStayPerpendicularUnderScale) {
     // The plane x + z = 1 stretched by 2 along x is x / 2 + z = 1, with the normal (1, 0, 2).
     const std::vector<float> normals{1, 0, 1, 1, 0, 1, 1, 0, 1};
     const Result<bake::SourceMesh> mesh =
@@ -90,7 +90,7 @@ TEST(Normals, OfAGltfStandUprightOnAStretchedSurface) {
     expect_near(flat->normals[0], {0, 0, 0});
 }
 
-TEST(Normals, OfAGltfThatAreNoneRefuseNoFile) {
+TEST(Normals, InvalidGltfNormalsDoNotRejectTheFile) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Result<bake::SourceMesh> mesh =
         load_text("a.gltf", gltf_with_normals({nan, 0, 1, 0, 0, 1, 0, 0, 1}, ""));

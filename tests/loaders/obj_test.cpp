@@ -72,13 +72,13 @@ std::string lost_of(const bake::SourceMesh& mesh) {
     return mesh.notes[0].text;
 }
 
-TEST(Obj, AMissingMaterialFileLeavesWhiteAndIsSaid) {
+TEST(Obj, MissingMaterialFileGivesWhiteAndIsReported) {
     const bake::SourceMesh mesh = mesh_of("mtllib nowhere.mtl\n" + square + "usemtl gold\nf 1 2 3\n");
     EXPECT_EQ(mesh.materials[mesh.triangle_materials[0]].base_colour, glm::vec4(1.0F));
     EXPECT_NE(lost_of(mesh).find("the colours: it names \"nowhere.mtl\" for them"), std::string::npos);
 }
 
-TEST(Obj, WhatIsLostIsSaid) {
+TEST(Obj, ReportsLosses) {
     EXPECT_TRUE(mesh_of(square + "f 1 2 3\n").notes.empty());
     EXPECT_NE(lost_of(mesh_of(square + "usemtl gold\nf 1 2 3\n")).find("no file of materials"),
               std::string::npos);
@@ -93,7 +93,7 @@ TEST(Obj, WhatIsLostIsSaid) {
     EXPECT_NE(lost_of(*mesh).find("material \"gold\""), std::string::npos);
 }
 
-TEST(Obj, FilesAreFoundByNamesFromOtherComputers) {
+TEST(Obj, FindsFilesByForeignPaths) {
     const std::string text = square + "vt 0 0\nusemtl wood\nf 1/1 2/1 3/1\n";
     for (const char* map :
          {"WOOD.PNG", "C:\\scans\\Wood.png", "C:/scans/wood.png", "/home/someone/wood.png", "..\\wood.png",
@@ -124,7 +124,7 @@ std::string plain_png(std::uint8_t red) {
     return std::string(as_text(image::encode_png(image::Image8(2, 2, glm::u8vec4(red, 0, 0, 255)))));
 }
 
-TEST(Obj, TilesOfTextureCoordinatesHavePicturesOfTheirOwn) {
+TEST(Obj, ReadsUdimTiles) {
     for (const char* map : {"skin.<UDIM>.png", "skin.1001.png"}) {
         SCOPED_TRACE(map);
         const TemporaryFolder folder;
@@ -146,7 +146,7 @@ TEST(Obj, TilesOfTextureCoordinatesHavePicturesOfTheirOwn) {
     }
 }
 
-TEST(Obj, APictureWithoutOthersBesideItIsRepeatedWhateverItsNumber) {
+TEST(Obj, RepeatsASinglePictureWithATileNumber) {
     const TemporaryFolder folder;
     folder.write("skin.1001.png", plain_png(10));
     folder.write("model.mtl", "newmtl wood\nmap_Kd skin.1001.png\n");
@@ -203,7 +203,7 @@ TEST(Obj, PicturesAreShrunkUntilAllOfThemFit) {
     EXPECT_TRUE(shrunk->notes[0].text.starts_with("2 of its 3 pictures are shrunk")) << shrunk->notes[0].text;
 }
 
-TEST(Obj, TheCuratorsPictureIsForOneThatIsMissing) {
+TEST(Obj, TextureOptionReplacesOnlyAMissingPicture) {
     const TemporaryFolder folder;
     const std::string text = "mtllib model.mtl\n" + square + "vt 0 0\nusemtl wood\nf 1/1 2/1 3/1\n";
     const auto own =
@@ -229,7 +229,7 @@ TEST(Obj, TheCuratorsPictureIsForOneThatIsMissing) {
               std::string::npos);
 }
 
-TEST(Obj, MaterialsBringColourAndPicture) {
+TEST(Obj, ReadsColourAndPictureOfMaterials) {
     const TemporaryFolder folder;
     image::Image8 picture(2, 1, glm::u8vec4(10, 20, 30, 255));
     const Bytes png = image::encode_png(picture);
@@ -246,7 +246,7 @@ TEST(Obj, MaterialsBringColourAndPicture) {
     EXPECT_EQ(mesh->textures[0].image->at(1, 0), glm::u8vec4(10, 20, 30, 255));
 }
 
-TEST(Obj, PicturesThatAreMissingDamagedOrElsewhereAreRefused) {
+TEST(Obj, RejectsMissingDamagedOrOutsidePictures) {
     const std::string text = "mtllib model.mtl\n" + square + "usemtl wood\nf 1 2 3\n";
     for (const auto& [map, expected] : std::vector<std::pair<std::string, std::string>>{
              {"gone.png",
@@ -268,7 +268,7 @@ TEST(Obj, PicturesThatAreMissingDamagedOrElsewhereAreRefused) {
     }
 }
 
-TEST(Obj, WrongLinesAreRefusedByNumber) {
+TEST(Obj, ErrorsNameTheLine) {
     for (const auto& [line, expected] : std::vector<std::pair<std::string, std::string>>{
              {"f 1 2 5", "line 5: vertex 5 is out of range"},
              {"f 0 1 2", "line 5: vertex 0 is out of range"},

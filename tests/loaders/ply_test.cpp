@@ -38,7 +38,7 @@ TEST(Ply, AQuadBecomesTwoTriangles) {
     EXPECT_EQ(mesh->default_up, 'y');
 }
 
-TEST(Ply, CarriageReturnsAndOtherLineEndsAreRead) {
+TEST(Ply, ReadsOtherLineEndings) {
     for (const std::string_view end : {"\r\n", "\r"}) {
         std::string text = square_header + square_data;
         for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + end.size())) {
@@ -76,7 +76,7 @@ std::string awkward_binary(bool big) {
     return file;
 }
 
-TEST(Ply, BothByteOrdersAndUnknownPartsAreRead) {
+TEST(Ply, ReadsBothByteOrdersAndSkipsUnknownParts) {
     for (const bool big : {false, true}) {
         const Result<bake::SourceMesh> mesh = load_text("awkward.ply", awkward_binary(big));
         ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
@@ -101,7 +101,7 @@ TEST(Ply, FloatColoursAreSrgbInZeroToOne) {
     expect_sound(*mesh);
 }
 
-TEST(Ply, TriangleStripsTurnEverySecondTriangleAndStartAfresh) {
+TEST(Ply, ReadsTriangleStripsWithRestarts) {
     std::string text = replaced(square_header, "element face", "element tristrips");
     text += "0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 0 1 3\n";
     const Result<bake::SourceMesh> mesh = load_text("strip.ply", text);
@@ -114,7 +114,7 @@ TEST(Ply, TriangleStripsTurnEverySecondTriangleAndStartAfresh) {
     }
 }
 
-TEST(Ply, WrongFilesAreRefusedInOneClearLine) {
+TEST(Ply, RejectsMalformedFilesInOneLine) {
     const std::string whole = square_header + square_data;
     const std::vector<std::pair<std::string, std::string>> cases = {
         {replaced(whole, "4 0 1 2 3", "4 0 1 2 9"), "vertex 9 is out of range"},
@@ -156,7 +156,7 @@ std::string meshlab_square(bool seam, const std::string& comment) {
            std::string(seam ? "0.5 0.5 0.25 0.25 0 1" : "0 0 1 1 0 1") + " 1\n";
 }
 
-TEST(Ply, MeshLabsPicturesAndTextureCoordinatesAtFacesAreRead) {
+TEST(Ply, ReadsMeshLabTexturesAndFaceTextureCoordinates) {
     const TemporaryFolder folder;
     folder.write("my skin.png",
                  as_text(image::encode_png(image::Image8(2, 1, glm::u8vec4(10, 20, 30, 255)))));
@@ -186,7 +186,7 @@ TEST(Ply, MeshLabsPicturesAndTextureCoordinatesAtFacesAreRead) {
     }
 }
 
-TEST(Ply, MutatedTextureCoordinatesGiveASoundMeshOrAnError) {
+TEST(Ply, MutatedTextureCoordinatesGiveAValidMeshOrAnError) {
     const TemporaryFolder folder;
     const auto own =
         folder.write("own.png", as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));
@@ -225,7 +225,7 @@ TEST(Ply, TextureCoordinatesAtVerticesAreRead) {
     EXPECT_EQ(mesh->notes[0].kind, bake::SourceNote::Kind::Guessed);
 }
 
-TEST(Ply, WhatIsLostIsSaid) {
+TEST(Ply, ReportsLosses) {
     const std::string wedge = meshlab_square(true, "");
     const std::string faces =
         replaced(replaced(square_header, "vertex_indices", "vertex_indices\nproperty uchar red"),
@@ -248,7 +248,7 @@ TEST(Ply, WhatIsLostIsSaid) {
     }
 }
 
-TEST(Ply, TheCuratorsPictureIsForTextureCoordinatesWithoutOne) {
+TEST(Ply, TextureOptionReplacesAMissingPicture) {
     const TemporaryFolder folder;
     const auto own =
         folder.write("own.png", as_text(image::encode_png(image::Image8(1, 1, glm::u8vec4(1, 2, 3, 255)))));

@@ -34,7 +34,7 @@ TEST(Polygon, AConvexPolygonIsCovered) {
     expect_covered({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, 2.0);
 }
 
-TEST(Polygon, AConcaveQuadIsNotFoldedOver) {
+TEST(Polygon, ConcaveQuadIsCoveredWithoutOverlap) {
     // An arrowhead, with its notch at each corner in turn.
     const std::vector<glm::dvec3> arrow = {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {1, 1, 0}};
     for (std::size_t turn = 0; turn < 4; ++turn) {
@@ -93,7 +93,7 @@ TEST(Polygon, ACombOfAThousandTeethIsCovered) {
     EXPECT_NEAR(sum, 2000.0 + 1000.0 * 2.0, 1e-9);
 }
 
-TEST(Polygon, AnOutlineThatGoesIntoAHoleAndBackIsCovered) {
+TEST(Polygon, OutlineWithABridgedHoleIsCovered) {
     // A square of 4 by 4 with a hole of 2 by 2, cut open along one line.
     expect_covered({{0, 0, 0},
                     {4, 0, 0},
@@ -108,7 +108,7 @@ TEST(Polygon, AnOutlineThatGoesIntoAHoleAndBackIsCovered) {
                    12.0);
 }
 
-TEST(Polygon, APolygonThatCrossesItselfOrHasNoAreaStillGivesItsTriangles) {
+TEST(Polygon, CrossingOrDegeneratePolygonStillGivesItsTriangles) {
     for (const std::vector<glm::dvec3>& corners :
          {std::vector<glm::dvec3>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<glm::dvec3>(6)}) {
         Triangles triangles;

@@ -127,7 +127,7 @@ TEST(SharedModels, TheCatHasOneColourInItsThreeEncodings) {
     }
 }
 
-TEST(SharedModels, EveryFlightHelmetPartHasItsOwnPicture) {
+TEST(SharedModels, EveryFlightHelmetPartHasAPicture) {
     FRUSTUMSCREEN_SKIP_WITHOUT_SHARED_DATA();
     const bake::SourceMesh mesh = loaded("flight_helmet/FlightHelmet.gltf");
     for (const std::uint32_t material : mesh.triangle_materials) {

@@ -12,7 +12,7 @@ bake::SourceAbout about_of(const std::string& asset) {
     return bake::about_of_gltf(nlohmann::json::parse(fmt::format(R"({{"asset":{}}})", asset)));
 }
 
-TEST(SourceAbout, of_glTF_is_what_Sketchfab_writes_or_the_copyright_notice) {
+TEST(SourceAbout, reads_Sketchfab_extras_or_copyright_of_glTF) {
     EXPECT_EQ(
         about_of(
             R"json({"extras":{"author":"Ann (https://a.org/ann)","title":"A  cat\n","license":"CC-BY-4.0 (http://b.org)","source":"https://a.org/cat"}})json"),
@@ -32,7 +32,7 @@ TEST(SourceAbout, of_glTF_is_what_Sketchfab_writes_or_the_copyright_notice) {
               std::string(999, 'a'));
 }
 
-TEST(SourceAbout, of_comments_is_the_first_of_a_kind) {
+TEST(SourceAbout, takes_the_first_comment_of_each_kind) {
     bake::SourceAbout about;
     bake::take_comments(
         "# Title: Jar\r\n  ## AUTHOR : Ann\n#license:CC0-1.0\n# Licence: other\n#Source: https://a.org\n"
@@ -46,7 +46,7 @@ TEST(SourceAbout, of_comments_is_the_first_of_a_kind) {
     bake::take_comments("#", about);
 }
 
-TEST(SourceAbout, comes_with_every_format_that_can_say_it) {
+TEST(SourceAbout, is_read_from_obj_mtl_and_ply_comments) {
     const TemporaryFolder folder;
     folder.write("m.mtl", "# License: CC0-1.0\nnewmtl a\nKd 1 0 0\n");
     const std::string square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
@@ -81,7 +81,7 @@ std::vector<std::string> lost_of(const std::string& material, const std::string&
     return lost;
 }
 
-TEST(GltfLosses, are_told_with_counts_where_they_are_drawn) {
+TEST(GltfLosses, are_reported_with_counts_for_drawn_materials) {
     EXPECT_TRUE(lost_of("{}").empty()) << "the other material is not drawn";
     const auto one = [](const std::vector<std::string>& lost) { return lost.size() == 1 ? lost[0] : ""; };
     EXPECT_EQ(one(lost_of(R"({"normalTexture":{"index":0}})")).find("the normal maps of 1 material:"), 0U);

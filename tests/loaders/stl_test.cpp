@@ -45,7 +45,7 @@ TEST(Stl, ABinaryFileMayBeginWithSolid) {
     EXPECT_EQ(mesh->triangles.size(), 2U);
 }
 
-TEST(Stl, TheContentCountsNotTheName) {
+TEST(Stl, DetectsTheFormatByContentNotByName) {
     EXPECT_TRUE(load_text("part.obj", binary_stl({facet})).has_value());
     EXPECT_TRUE(load_text("part.ply", std::string(ascii)).has_value());
 }
@@ -59,7 +59,7 @@ std::string losses_of(const Result<bake::SourceMesh>& mesh) {
     return losses;
 }
 
-TEST(Stl, WhatIsNotReadIsTold) {
+TEST(Stl, ReportsColoursThatAreNotRead) {
     std::string file = binary_stl({facet, facet, facet});
     EXPECT_EQ(losses_of(load_text("part.stl", file)), "");
     file[84 + 2 * 50 - 1] = '\x80'; // of the second triangle
@@ -90,7 +90,7 @@ TEST(Stl, ATruncatedFileIsRefused) {
     EXPECT_NE(error_of(load_text("part.stl", binary.substr(0, 20))).find("84"), std::string::npos);
 }
 
-TEST(Stl, APositionThatIsNoNumberIsRefusedByName) {
+TEST(Stl, RejectsAnInvalidPositionAndNamesItsPlace) {
     std::array<float, 9> bad = facet;
     bad[4] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_NE(error_of(load_text("part.stl", binary_stl({facet, bad}))).find("vertex 4"), std::string::npos);

@@ -22,14 +22,14 @@ std::vector<watch::Step> steps_against(FaultKind fault, MuseumTime restored_afte
 
 using Steps = std::vector<watch::Step>;
 
-TEST(Museum, WhatSystemdMendsNeedsNoStep) {
+TEST(Museum, TakesNoStepForFaultsThatSystemdRepairs) {
     for (const FaultKind fault :
          {FaultKind::Crash, FaultKind::Hang, FaultKind::KernelHang, FaultKind::PowerCut}) {
         EXPECT_EQ(steps_against(fault), Steps{}) << kind_of(fault).name;
     }
 }
 
-TEST(Museum, EachFaultMeetsTheShortestLadder) {
+TEST(Museum, TakesTheShortestLadderForEachFault) {
     EXPECT_EQ(steps_against(FaultKind::Freeze), Steps{watch::Step::RestartExhibit});
     EXPECT_EQ(steps_against(FaultKind::TrackerHung), Steps{watch::Step::ResetDevice});
     EXPECT_EQ(steps_against(FaultKind::DeviceThread), Steps{watch::Step::ResetDevice});
@@ -44,12 +44,12 @@ TEST(Museum, EachFaultMeetsTheShortestLadder) {
     }
 }
 
-TEST(Museum, ADeadTrackerIsGivenUp) {
+TEST(Museum, GivesUpOnADeadTracker) {
     EXPECT_EQ(steps_against(FaultKind::TrackerDead),
               (Steps{watch::Step::ResetDevice, watch::Step::RestartExhibit, watch::Step::Reboot}));
 }
 
-TEST(Museum, ABrokenMachineShowsWordsAndRestsBetweenReboots) {
+TEST(Museum, BrokenMachineShowsWordsAndLimitsReboots) {
     const std::vector<FaultEvent> fault_events{{noon, FaultKind::MachineBroken, noon + 3 * museum_day}};
     const MuseumRun run = simulate(Policy::Ladder, fault_events, 5, 1);
     EXPECT_LE(run.max_reboots_in_day, watch::reboots_a_day);
@@ -59,7 +59,7 @@ TEST(Museum, ABrokenMachineShowsWordsAndRestsBetweenReboots) {
     EXPECT_LT(run.longest_dark_s, 300);
 }
 
-TEST(Museum, MonthsOfEverything) {
+TEST(Museum, LadderIsNoWorseThanTheOtherPolicies) {
     constexpr int days = 100;
     const std::vector<FaultEvent> fault_events = seeded_faults(7, days, 5.0);
     ASSERT_GT(fault_events.size(), 100U);

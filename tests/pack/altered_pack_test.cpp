@@ -65,7 +65,7 @@ TEST(AlteredPack, a_part_changed_with_its_checksum_still_fails_its_hash) {
     EXPECT_NE(message.find("levels/0.bin does not match its hash"), std::string::npos) << message;
 }
 
-TEST(AlteredPack, other_files_are_called_what_they_are) {
+TEST(AlteredPack, other_files_are_reported_as_not_a_pack) {
     EXPECT_NE(samples::refusal_of({}).find("not a pack"), std::string::npos);
     const std::string text(500, 'x');
     const auto bytes = as_bytes(text);

@@ -28,7 +28,7 @@ TEST(Attribution, HasALineForTheArtifactOneForItsOwnerAndOneForTheScan) {
     EXPECT_EQ(attribution_of(caption_of("", "", "", ""), {{}, {}, "https://example.org"}), "");
 }
 
-TEST(Attribution, SaysALicenceOnceAndAddressesByTheirHosts) {
+TEST(Attribution, PrintsALicenceOnceAndAddressesAsHosts) {
     EXPECT_EQ(attribution_of(caption_of("", "", "", "Museum, CC-BY-4.0"), {"CC-BY-4.0", {}, {}}),
               "Museum, CC-BY-4.0");
     // The form in which Sketchfab writes them.
@@ -43,7 +43,7 @@ TEST(Attribution, SaysALicenceOnceAndAddressesByTheirHosts) {
     EXPECT_EQ(with_short_addresses("a http: //b"), "a http: //b");
 }
 
-TEST(Attribution, GoesThroughAPackAndOlderReadersIgnoreIt) {
+TEST(Attribution, RoundTripsThroughASectionOfThePack) {
     Pack pack = samples::pack();
     const ScanRights rights{"CC-BY-4.0", "Jo Fox", "https://example.org/jar"};
     put_scan_rights(pack, rights);
@@ -59,7 +59,7 @@ TEST(Attribution, GoesThroughAPackAndOlderReadersIgnoreIt) {
     EXPECT_EQ(scan_rights(plain).value(), (ScanRights{"CC0-1.0", {}, {}}));
 }
 
-TEST(Attribution, OfAPackThatSaysItWronglyIsRefused) {
+TEST(Attribution, RejectsAMalformedSection) {
     for (const char* data :
          {R"({"author":"a"})", R"({"author":"a","source":1})", R"({"author":"a","source":"b","more":""})",
           R"({"author":"two\nlines","source":""})", R"({"author":"","source":"\u202e"})"}) {
@@ -72,7 +72,7 @@ TEST(Attribution, OfAPackThatSaysItWronglyIsRefused) {
     EXPECT_FALSE(scan_rights(with_part));
 }
 
-TEST(Attribution, WhatALicenceAsksForIsMissed) {
+TEST(Attribution, ReportsMissingLicenceAuthorAndId) {
     const auto missing = [](const std::string& licence, const std::string& author,
                             const std::string& credit) {
         PackDescription pack;

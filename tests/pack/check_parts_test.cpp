@@ -61,7 +61,7 @@ TEST(CheckParts, refuses_a_level_whenever_reading_it_does) {
     EXPECT_LT(refused, mutants);
 }
 
-TEST(CheckParts, a_level_may_come_in_any_pieces) {
+TEST(CheckParts, scans_a_level_in_pieces_of_any_size) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     std::mt19937 random(3);
     int levels = 0;
@@ -88,7 +88,7 @@ TEST(CheckParts, a_level_may_come_in_any_pieces) {
     EXPECT_EQ(levels, 2);
 }
 
-TEST(CheckParts, refuses_pictures_that_are_too_large_or_none) {
+TEST(CheckParts, refuses_oversized_and_invalid_pictures) {
     const samples::Entries good = samples::take_apart(samples::bytes_of(samples::pack()));
     const auto with_texture = [&](const Bytes& picture) {
         samples::Entries entries = good;

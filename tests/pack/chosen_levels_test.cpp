@@ -14,7 +14,7 @@ ChooseLevels only(std::vector<std::uint32_t> levels) {
 
 } // namespace
 
-TEST(ChosenLevels, are_read_as_they_are_and_the_others_are_empty) {
+TEST(ChosenLevels, are_read_unchanged_and_others_are_empty) {
     const Pack pack = samples::pack();
     ASSERT_GT(pack.levels.size(), 1U);
     const Bytes bytes = samples::bytes_of(pack);
@@ -57,7 +57,7 @@ TEST(ChosenLevels, are_chosen_from_the_whole_outline) {
     EXPECT_EQ(refused.error().message, "none of them");
 }
 
-TEST(ChosenLevels, fail_their_hash_when_altered_and_nothing_else_does) {
+TEST(ChosenLevels, fail_only_when_their_own_parts_are_altered) {
     const Bytes bytes = samples::bytes_of(samples::pack());
     const Bytes picture = samples::take_apart(bytes).part("textures/0.png");
     const auto there = std::search(bytes.begin(), bytes.end(), picture.begin(), picture.end());

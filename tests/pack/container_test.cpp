@@ -43,7 +43,7 @@ std::uint32_t number_at(const Bytes& bytes, std::size_t offset, std::size_t coun
 
 } // namespace
 
-TEST(Container, the_level_in_the_format_page_is_what_is_written) {
+TEST(Container, level_matches_the_dump_in_the_format_page) {
     PackLevel level;
     level.vertices = {
         {{0, 0, 0}, 0, {0, 0}}, {{65535, 0, 0}, 0, {65535, 0}}, {{0, 32768, 65535}, 0, {256, 65535}}};
@@ -85,7 +85,7 @@ TEST(Container, an_entry_that_is_not_listed_is_refused) {
     EXPECT_NE(message.find("autorun.sh is not listed"), std::string::npos) << message;
 }
 
-TEST(Container, a_signature_has_its_place) {
+TEST(Container, accepts_a_signature_of_limited_size) {
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     entries.parts.push_back({"signature", Bytes(64)});
     EXPECT_EQ(samples::refusal_of(samples::put_together(entries)), "");
@@ -93,7 +93,7 @@ TEST(Container, a_signature_has_its_place) {
     EXPECT_NE(samples::refusal_of(samples::put_together(entries)).find("signature"), std::string::npos);
 }
 
-TEST(Container, an_entry_that_claims_more_than_it_can_hold_is_refused) {
+TEST(Container, entry_that_claims_too_many_bytes_is_refused) {
     Bytes bytes = samples::bytes_of(samples::pack());
     // The manifest's unpacked size in the directory, which the end record points at
     // (APPNOTE.TXT 4.3.12, 4.3.16).

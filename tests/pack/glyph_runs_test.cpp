@@ -58,17 +58,17 @@ std::string refusal(const Bytes& bytes) {
 
 } // namespace
 
-TEST(GlyphRuns, the_format_pages_example_is_what_is_written) {
+TEST(GlyphRuns, encoding_matches_the_format_page) {
     EXPECT_EQ(encode_glyph_runs(one_text()), example_bytes());
 }
 
-TEST(GlyphRuns, the_format_pages_example_is_what_is_read) {
+TEST(GlyphRuns, decodes_the_example_of_the_format_page) {
     const Result<GlyphRuns> runs = decode_glyph_runs(example_bytes());
     ASSERT_TRUE(runs) << runs.error().message;
     EXPECT_TRUE(*runs == one_text());
 }
 
-TEST(GlyphRuns, cut_anywhere_or_longer_they_are_refused) {
+TEST(GlyphRuns, truncated_or_extended_runs_are_refused) {
     Bytes good = encode_glyph_runs(one_text());
     for (std::size_t bytes = 0; bytes < good.size(); ++bytes) {
         EXPECT_FALSE(decode_glyph_runs(std::span(good).first(bytes))) << bytes;
@@ -105,13 +105,13 @@ TEST(GlyphRuns, numbers_out_of_range_are_named) {
         std::string::npos);
 }
 
-TEST(GlyphRuns, a_key_occurs_once) {
+TEST(GlyphRuns, duplicate_key_is_refused) {
     GlyphRuns twice = one_text();
     twice.texts.push_back(twice.texts[0]);
     EXPECT_TRUE(test::tells(refusal(encode_glyph_runs(twice)), {"text name", "[glyphs.text_twice]"}));
 }
 
-TEST(GlyphRuns, the_atlas_must_be_theirs) {
+TEST(GlyphRuns, atlas_must_be_grey_and_match_their_size) {
     const GlyphRuns runs = one_text();
     const DistanceAtlas right(32, 36, 77);
     const Result<DistanceAtlas> back = decode_distance_atlas(encode_distance_atlas(right), runs);

@@ -39,7 +39,7 @@ TEST(HostileManifest, a_later_version_asks_for_a_newer_program) {
                      }}});
 }
 
-TEST(HostileManifest, format_and_version_are_exact) {
+TEST(HostileManifest, invalid_format_or_version_is_refused) {
     expect_refused({{"format", [](Json& m) { m["format"] = "Another pack"; }},
                     {"format", [](Json& m) { m.erase("format"); }},
                     {"version", [](Json& m) { m["version"] = 0; }},
@@ -88,7 +88,7 @@ TEST(HostileManifest, unknown_and_repeated_fields_are_refused) {
     EXPECT_NE(refusal_of_text(text).find("title occurs twice"), std::string::npos);
 }
 
-TEST(HostileManifest, what_is_not_json_is_refused) {
+TEST(HostileManifest, malformed_json_is_refused) {
     for (const std::string& text :
          std::vector<std::string>{"", "{", "nul", "{\"format\": \"\xFF\"}", std::string(100000, '['),
                                   "{\"version\": 1e999}", std::string("{\0}", 3), "{} {}"}) {
@@ -98,7 +98,7 @@ TEST(HostileManifest, what_is_not_json_is_refused) {
     }
 }
 
-TEST(HostileManifest, texts_are_bounded_and_clean) {
+TEST(HostileManifest, invalid_texts_and_values_are_refused) {
     expect_refused(
         {{"title", [](Json& m) { m["title"] = std::string(1001, 'x'); }},
          {"title", [](Json& m) { m["title"] = "clear \x1b[2J"; }},
@@ -115,7 +115,7 @@ TEST(HostileManifest, texts_are_bounded_and_clean) {
          {"relief_size", [](Json& m) { m["relief_size"] = 1000000; }}});
 }
 
-TEST(HostileManifest, the_placement_is_a_box_and_a_similarity) {
+TEST(HostileManifest, invalid_placement_is_refused) {
     expect_refused(
         {{"scale", [](Json& m) { m["placement"]["scale"] = 0.0; }},
          {"scale", [](Json& m) { m["placement"]["scale"] = -1.0; }},
@@ -150,7 +150,7 @@ TEST(HostileManifest, the_placement_is_a_box_and_a_similarity) {
           }}});
 }
 
-TEST(HostileManifest, levels_refer_to_what_is_there) {
+TEST(HostileManifest, inconsistent_levels_are_refused) {
     expect_refused({{"default_level", [](Json& m) { m["default_level"] = 2; }},
                     {"levels", [](Json& m) { m["levels"] = Json::array(); }},
                     {"technique", [](Json& m) { m["levels"][0]["technique"] = "march"; }},
@@ -171,7 +171,7 @@ TEST(HostileManifest, levels_refer_to_what_is_there) {
                     {"error", [](Json& m) { m["levels"][0]["error"]["colour_rmse"] = 256; }}});
 }
 
-TEST(HostileManifest, parts_and_entries_agree) {
+TEST(HostileManifest, parts_that_contradict_the_entries_are_refused) {
     expect_refused({{"missing", [](Json& m) { m["parts"][0]["name"] = "textures/8.png"; }},
                     {"manifest says", [](Json& m) { m["parts"][0]["bytes"] = 5; }},
                     {"bytes", [](Json& m) { m["parts"][0]["bytes"] = 1ULL << 40; }},
@@ -188,7 +188,7 @@ TEST(HostileManifest, parts_and_entries_agree) {
                      }}});
 }
 
-TEST(HostileManifest, a_relief_needs_all_of_its_fields) {
+TEST(HostileManifest, invalid_relief_is_refused) {
     expect_refused({{"texel_box", [](Json& m) { m["relief"]["texel_box"] = 0.0; }},
                     {"texel_box", [](Json& m) { m["relief"]["texel_box"] = 1e-60; }},
                     {"texel_box", [](Json& m) { m["relief"]["texel_box"] = 2.0; }},

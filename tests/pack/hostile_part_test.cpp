@@ -64,7 +64,7 @@ std::size_t first_texel() {
 
 } // namespace
 
-TEST(HostilePart, a_level_with_other_counts_than_bytes_is_refused) {
+TEST(HostilePart, level_whose_header_contradicts_its_size_is_refused) {
     const char* level = "levels/0.bin";
     expect_refused({{level, "bytes is 0", [](Bytes& b) { b.clear(); }},
                     {level, "FSLV", [](Bytes& b) { b[0] = std::byte{'X'}; }},
@@ -92,7 +92,7 @@ TEST(HostilePart, clusters_cover_the_indices_in_order) {
                     {level, "cluster 1", [](Bytes& b) { set(b, header + cluster + 48, not_a_number); }}});
 }
 
-TEST(HostilePart, indices_and_vertices_are_held_against_each_other) {
+TEST(HostilePart, indices_must_refer_to_existing_vertices) {
     const char* level = "levels/0.bin";
     const std::size_t indices = header + 2 * cluster;
     const std::size_t vertices = indices + 36;

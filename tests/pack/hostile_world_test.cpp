@@ -77,7 +77,7 @@ template <typename Number> Bytes with(Bytes bytes, std::size_t at, Number number
 
 } // namespace
 
-TEST(HostileWorld, cells_that_are_refused) {
+TEST(HostileWorld, invalid_cells_are_refused) {
     for (const auto& [words, change] :
          std::initializer_list<std::pair<const char*, std::function<void(std::vector<PackCell>&)>>>{
              {"[cell.count]", [](auto& c) { c.resize(257, c[1]); }},
@@ -109,7 +109,7 @@ TEST(HostileWorld, cells_that_are_refused) {
     }
 }
 
-TEST(HostileWorld, a_chain_that_leaves_every_number_is_refused) {
+TEST(HostileWorld, chain_of_scales_that_overflows_is_refused) {
     PackWorld chain;
     for (std::size_t k = 0; k < 40; ++k) {
         PackCell& link = chain.cells.emplace_back();
@@ -121,7 +121,7 @@ TEST(HostileWorld, a_chain_that_leaves_every_number_is_refused) {
     expect_told(told(put_world(pack, chain, std::vector<Pack>(chain.cells.size()))), "[cell.chain]");
 }
 
-TEST(HostileWorld, behaviours_that_are_refused) {
+TEST(HostileWorld, invalid_behaviours_are_refused) {
     for (const auto& [words, change] :
          std::initializer_list<std::pair<const char*, std::function<void(PackWorld&)>>>{
              {"[behaviour.count]", [](auto& w) { w.behaviours.resize(33, w.behaviours[1]); }},
@@ -179,7 +179,7 @@ TEST(HostileWorld, behaviours_that_are_refused) {
     }
 }
 
-TEST(HostileWorld, what_a_tangent_may_be_is_not_refused) {
+TEST(HostileWorld, negative_and_zero_tangents_are_accepted) {
     EXPECT_EQ(refusal_of([](PackWorld& world) {
                   world::Curve& light = first(world).channels[3].curve;
                   light.interpolation = world::Interpolation::CubicSpline;
@@ -193,7 +193,7 @@ TEST(HostileWorld, what_a_tangent_may_be_is_not_refused) {
               "");
 }
 
-TEST(HostileWorld, a_cells_own_pack_has_nothing_of_the_whole) {
+TEST(HostileWorld, cell_pack_with_captions_hotspots_or_sections_is_refused) {
     expect_told(refusal_of_cell([](Pack& cell) { cell.captions = samples::pack().captions; }),
                 "[world.nested]");
     expect_told(refusal_of_cell([](Pack& cell) { cell.hotspots = samples::full_pack().hotspots; }),
@@ -283,7 +283,7 @@ TEST(HostileWorld, altered_parts_are_refused) {
     expect_told(refusal_with("behaviours/curves.bin", {}), "FSCV");
 }
 
-TEST(HostileWorld, curves_that_are_refused) {
+TEST(HostileWorld, invalid_curves_are_refused) {
     const Bytes good = samples::pack_with_world().section_parts.at("behaviours/curves.bin");
     ASSERT_TRUE(decode_curves(good));
     constexpr std::uint32_t all = std::numeric_limits<std::uint32_t>::max();
@@ -314,7 +314,7 @@ TEST(HostileWorld, curves_that_are_refused) {
     EXPECT_EQ(decode_curves(longer).error().id, "curves.length");
 }
 
-TEST(HostileWorld, every_flipped_byte_of_its_parts_is_refused_in_one_line) {
+TEST(HostileWorld, flipped_bytes_of_a_cell_are_refused_by_part_name) {
     const Bytes bytes = samples::bytes_of(samples::pack_with_world());
     const Bytes part = samples::take_apart(bytes).part("cells/2.fspack");
     const auto there = std::search(bytes.begin(), bytes.end(), part.begin(), part.end());
@@ -329,7 +329,7 @@ TEST(HostileWorld, every_flipped_byte_of_its_parts_is_refused_in_one_line) {
     EXPECT_GT(flips, 50U);
 }
 
-TEST(HostileWorld, a_flipped_byte_with_a_right_hash_is_refused_in_one_line_or_sound) {
+TEST(HostileWorld, flipped_bytes_with_valid_hash_are_refused_or_harmless) {
     const Pack good = samples::pack_with_world();
     const auto refused = [&](const std::string& part, std::size_t step, const auto& check) {
         std::size_t count = 0;

@@ -93,7 +93,7 @@ void judge(const Bytes& bytes, Count& count) {
 
 } // namespace
 
-TEST(Mutants, of_the_file_are_refused_or_usable) {
+TEST(Mutants, file_mutants_are_refused_or_usable) {
     const Bytes bytes = samples::bytes_of(samples::full_pack());
     std::mt19937 random(101);
     Count count;
@@ -107,7 +107,7 @@ TEST(Mutants, of_the_file_are_refused_or_usable) {
     EXPECT_GT(count.refused, count.mutants * 3 / 4);
 }
 
-TEST(Mutants, of_the_parts_with_right_hashes_are_refused_or_usable) {
+TEST(Mutants, part_mutants_with_valid_hashes_are_refused_or_usable) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     std::mt19937 random(102);
     Count count;
@@ -121,7 +121,7 @@ TEST(Mutants, of_the_parts_with_right_hashes_are_refused_or_usable) {
     EXPECT_LT(count.refused, count.mutants) << "some mutants reach the last check";
 }
 
-TEST(Mutants, of_the_manifest_are_refused_or_usable) {
+TEST(Mutants, manifest_mutants_are_refused_or_usable) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     const std::string manifest = entries.manifest.dump();
     const auto manifest_bytes = as_bytes(manifest);

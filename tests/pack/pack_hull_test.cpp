@@ -12,7 +12,7 @@ namespace {
 const std::vector<glm::dvec3> corners{
     {0.5, 0.0, 0.0}, {0.1, 0.2, 0.0}, {0.0, 0.0, 1.0}, {-0.25, 0.5, 1.0 / 3.0}};
 
-TEST(PackHull, IsReadAsItWasWrittenAndStandsInAProp) {
+TEST(PackHull, RoundTripsAndScalesIntoAProp) {
     Pack pack = samples::pack();
     put_hull(corners, pack);
     const auto back = verify_pack(*write_pack(pack));
@@ -23,7 +23,7 @@ TEST(PackHull, IsReadAsItWasWrittenAndStandsInAProp) {
     EXPECT_EQ(hull_in(**back, prop).value()[0], scale * corners[0]);
 }
 
-TEST(PackHull, IsTheBoxInAnOlderPack) {
+TEST(PackHull, IsTheBoxWithoutAHullSection) {
     const Pack pack = samples::pack();
     const std::vector<glm::dvec3> box = hull_of(pack).value();
     ASSERT_EQ(box.size(), 8U);
@@ -31,7 +31,7 @@ TEST(PackHull, IsTheBoxInAnOlderPack) {
     EXPECT_EQ(box[7], glm::dvec3(0.5, 0.5, 1.0) * pack.box_size);
 }
 
-TEST(PackHull, ThatIsNotWhatTheFormatSaysIsRefused) {
+TEST(PackHull, RejectsMalformedData) {
     const auto refusal = [](const std::string& data) {
         Pack pack = samples::pack();
         pack.sections.push_back({"hull", data, {}});

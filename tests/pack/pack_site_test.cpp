@@ -32,7 +32,7 @@ Pack two_regions() {
 
 const std::vector<glm::dvec3> two_places{{0.0, 0.0, 0.125}, {0.125, -0.0625, 0.0}};
 
-TEST(PackSite, IsReadAsItWasWritten) {
+TEST(PackSite, RoundTrip) {
     Pack pack = two_regions();
     EXPECT_EQ(site_of(pack).value(), std::nullopt);
     EXPECT_TRUE(site_regions_of(pack).value().empty());
@@ -47,7 +47,7 @@ TEST(PackSite, IsReadAsItWasWritten) {
     EXPECT_EQ(regions[1].high, glm::dvec3(0.5, 0.5, 1.0) * pack.box_size);
 }
 
-TEST(PackSite, ThatIsNotWhatTheFormatSaysIsRefused) {
+TEST(PackSite, RejectsMalformedData) {
     const auto refusal = [](Pack pack, const std::string& data) {
         pack.sections.push_back({"site", data, {}});
         const auto regions = site_regions_of(pack);

@@ -54,7 +54,7 @@ std::function<void(Pack&)> data(std::size_t index, const std::function<void(Json
 
 } // namespace
 
-TEST_F(PackTexts, are_written_as_the_format_page_says) {
+TEST_F(PackTexts, manifest_matches_the_format_page) {
     const samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack_with_words()));
     EXPECT_EQ(entries.manifest["sections"]["texts"].dump(),
               R"({"parts":["texts/en/glyphs.bin","texts/en/atlas.webp","texts/pt-br/glyphs.bin",)"
@@ -67,7 +67,7 @@ TEST_F(PackTexts, are_written_as_the_format_page_says) {
               R"([{"key":"description","part":"sounds/en/description.opus"}]}]}})");
 }
 
-TEST_F(PackTexts, come_back_as_they_were) {
+TEST_F(PackTexts, round_trip) {
     write(samples::pack_with_words());
     const Result<std::vector<SetLanguage>> read = load({"pt-BR", "fr", "it"});
     ASSERT_TRUE(read) << read.error().message;
@@ -81,7 +81,7 @@ TEST_F(PackTexts, come_back_as_they_were) {
     EXPECT_EQ(fault_with([](Pack&) {}), "");
 }
 
-TEST_F(PackTexts, of_one_language_are_read_without_the_others) {
+TEST_F(PackTexts, each_language_is_read_alone) {
     write_with_damage("texts/en/glyphs.bin");
     EXPECT_TRUE(load({"pt-BR"}));
     const Result<std::vector<SetLanguage>> damaged = load({"en"});
@@ -91,7 +91,7 @@ TEST_F(PackTexts, of_one_language_are_read_without_the_others) {
         << damaged.error().message;
 }
 
-TEST_F(PackTexts, and_sounds_are_not_in_every_pack) {
+TEST_F(PackTexts, pack_without_texts_and_sounds_is_valid) {
     write(samples::pack());
     const Result<std::vector<SetLanguage>> none = load({"en"});
     ASSERT_TRUE(none) << none.error().message;
@@ -103,7 +103,7 @@ TEST_F(PackTexts, and_sounds_are_not_in_every_pack) {
     EXPECT_TRUE(check_set_and_spoken(samples::pack()));
 }
 
-TEST_F(PackTexts, sounds_are_read_one_by_one) {
+TEST_F(PackTexts, each_sound_is_read_alone) {
     write_with_damage("texts/en/glyphs.bin"); // not read here
     const Result<Bytes> sound = load_sound(file, "en", "description");
     ASSERT_TRUE(sound) << sound.error().message;
@@ -113,7 +113,7 @@ TEST_F(PackTexts, sounds_are_read_one_by_one) {
     EXPECT_EQ(*list_sounds(samples::pack_with_words()), (std::vector<SpokenText>{{"en", "description"}}));
 }
 
-TEST_F(PackTexts, a_sound_that_is_no_recording_is_refused) {
+TEST_F(PackTexts, sound_that_is_not_ogg_is_refused) {
     Pack pack = samples::pack();
     put_sounds(pack, std::vector<SpokenLanguage>{{"en", {{"description", samples::some_bytes("RIFF")}}}});
     write(pack);
@@ -121,7 +121,7 @@ TEST_F(PackTexts, a_sound_that_is_no_recording_is_refused) {
     EXPECT_FALSE(check_set_and_spoken(pack));
 }
 
-TEST_F(PackTexts, other_data_than_defined_are_refused) {
+TEST_F(PackTexts, invalid_section_data_is_refused) {
     constexpr std::size_t sounds = 0;
     constexpr std::size_t texts = 1;
     expect_fault("sections.texts.data.size", data(texts, [](Json& d) { d["size"] = 1; }));

@@ -76,7 +76,7 @@ TEST(Placement, keeps_every_vertex_inside_and_touches_a_side) {
     }
 }
 
-TEST(Placement, of_a_cube_shaped_artifact_is_known_by_hand) {
+TEST(Placement, matches_a_hand_computed_cube) {
     // A unit cube in a frustum of base 16, top 9, height 12 cm: side s at height s, s = 16 - 7 s / 12 cm.
     Pack pack;
     pack.extremes.clear();
@@ -91,7 +91,7 @@ TEST(Placement, of_a_cube_shaped_artifact_is_known_by_hand) {
     EXPECT_NEAR(placement.prop_from_artifact[1][1], side_m, 1e-15);
 }
 
-TEST(Placement, turns_moves_and_scales_in_that_order) {
+TEST(Placement, rotates_translates_and_scales_in_that_order) {
     Pack pack = samples::pack();
     // The file's +Y up at scale 1/2 about (1, 2, 3): file (x, y, z) -> box ((x-1)/2, -(z-3)/2, (y-2)/2).
     pack.box_from_file = glm::dmat4(glm::dvec4(0.5, 0, 0, 0), glm::dvec4(0, 0, 0.5, 0),
@@ -105,7 +105,7 @@ TEST(Placement, turns_moves_and_scales_in_that_order) {
     EXPECT_EQ(p.w, 1.0);
 }
 
-TEST(Placement, is_not_shrunk_by_a_lowest_point_that_rounding_put_below_the_bottom) {
+TEST(Placement, ignores_rounding_below_the_bottom) {
     Pack pack = samples::pack();
     const double whole = place(pack, geometry::make_frustum({})).metres_per_box;
     pack.extremes[0].z = -1e-12;

@@ -43,7 +43,7 @@ protected:
 
 } // namespace
 
-TEST_F(Program, verify_tells_intact_packs_from_others) {
+TEST_F(Program, verify_distinguishes_intact_from_damaged_packs) {
     const Outcome good = pack_program("verify good.fspack");
     EXPECT_EQ(good.status, 0);
     EXPECT_EQ(good.out.find("good.fspack: intact, unsigned"), 0U) << good.out;
@@ -100,7 +100,7 @@ TEST_F(Program, explain_places_the_artifact_in_the_configured_prop) {
     expect_matrix("--config cube.toml", geometry::make_cube(0.1));
 }
 
-TEST_F(Program, explain_has_everything_that_a_pack_says) {
+TEST_F(Program, explain_prints_everything_in_a_pack) {
     ASSERT_TRUE(write_file("good.fspack", samples::bytes_of(samples::full_pack())));
     const Outcome outcome = pack_program("explain good.fspack --json");
     ASSERT_EQ(outcome.status, 0) << outcome.error;
@@ -165,7 +165,7 @@ TEST_F(Program, explain_has_the_cells_and_behaviours) {
     EXPECT_EQ(plain["behaviours"], nlohmann::json::array());
 }
 
-TEST_F(Program, verify_checks_the_cells_own_packs_wholly) {
+TEST_F(Program, verify_checks_the_packs_of_cells) {
     ASSERT_TRUE(write_file("good.fspack", samples::bytes_of(samples::pack_with_world())));
     EXPECT_EQ(pack_program("verify good.fspack").status, 0);
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack_with_world()));
@@ -181,7 +181,7 @@ TEST_F(Program, verify_checks_the_cells_own_packs_wholly) {
         << outcome.error;
 }
 
-TEST_F(Program, verify_holds_the_parts_of_unknown_sections_against_their_hashes) {
+TEST_F(Program, verify_checks_hashes_of_section_parts) {
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     entries.part("sounds/en/0.opus")[0] ^= std::byte{1};
     ASSERT_TRUE(write_file("good.fspack", samples::put_together(entries)));

@@ -69,7 +69,7 @@ void expect_equal(const relief::BlockRelief& a, const relief::BlockRelief& b) {
 
 } // namespace
 
-TEST(ReliefBlocks, the_bytes_lie_where_the_format_page_says) {
+TEST(ReliefBlocks, encoding_matches_the_format_page) {
     const relief::BlockRelief relief = samples::block_relief(32);
     const Bytes bytes = pack::encode_blocks(relief);
     ASSERT_EQ(bytes.size(), covers + 8 * relief.covers.size());
@@ -139,7 +139,7 @@ TEST(ReliefBlocks, a_damaged_part_is_refused) {
     }
 }
 
-TEST(ReliefBlocks, a_pack_has_them_and_one_is_read_alone) {
+TEST(ReliefBlocks, each_relief_of_a_pack_is_read_alone) {
     const Pack pack = samples::pack_with_reliefs();
     const Bytes bytes = samples::bytes_of(pack);
     const Result<VerifiedPack> read = verify_pack(bytes);
@@ -165,13 +165,13 @@ TEST(ReliefBlocks, a_pack_has_them_and_one_is_read_alone) {
     EXPECT_FALSE(load_relief(file, reliefs[0])) << "its hash is wrong";
 }
 
-TEST(ReliefBlocks, a_pack_without_them_has_none) {
+TEST(ReliefBlocks, pack_without_reliefs_has_an_empty_list) {
     EXPECT_TRUE(reliefs_of(samples::pack()).value().empty());
     EXPECT_TRUE(reliefs_of(samples::full_pack()).value().empty());
     EXPECT_TRUE(check_reliefs(samples::full_pack()));
 }
 
-TEST(ReliefBlocks, a_section_that_contradicts_itself_is_refused) {
+TEST(ReliefBlocks, inconsistent_section_is_refused) {
     const auto refusal_with = [](const std::string& from, const std::string& to) {
         Pack pack = samples::pack_with_reliefs();
         std::string& data = pack.sections.front().data;

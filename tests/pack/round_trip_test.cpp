@@ -86,7 +86,7 @@ TEST(RoundTrip, sections_come_back_unchanged) {
     EXPECT_EQ(samples::bytes_of(**back), bytes);
 }
 
-TEST(RoundTrip, what_was_read_is_written_again_byte_for_byte) {
+TEST(RoundTrip, rewriting_a_pack_gives_the_same_bytes) {
     const Bytes bytes = samples::bytes_of(samples::pack());
     const Result<VerifiedPack> back = verify_pack(bytes);
     ASSERT_TRUE(back) << back.error().message;
@@ -161,7 +161,7 @@ TEST(RoundTrip, errors_of_any_size_keep_all_their_bits) {
     }
 }
 
-TEST(RoundTrip, the_same_pack_gives_the_same_bytes_at_any_time) {
+TEST(RoundTrip, same_pack_gives_the_same_bytes_with_fixed_dates) {
     const Bytes file = samples::bytes_of(samples::pack());
     EXPECT_EQ(file, samples::bytes_of(samples::pack()));
     const std::vector<std::uint32_t> dates = samples::zip_dates(file);
@@ -171,7 +171,7 @@ TEST(RoundTrip, the_same_pack_gives_the_same_bytes_at_any_time) {
     }
 }
 
-TEST(RoundTrip, a_relief_vertex_half_a_code_off_is_taken_to_its_texel) {
+TEST(RoundTrip, relief_vertex_is_snapped_to_its_texel) {
     Pack pack = samples::pack();
     const Bytes exact = samples::bytes_of(pack);
     for (PackVertex& vertex : pack.levels[1].vertices) {
@@ -182,7 +182,7 @@ TEST(RoundTrip, a_relief_vertex_half_a_code_off_is_taken_to_its_texel) {
     EXPECT_EQ(samples::bytes_of(pack), exact);
 }
 
-TEST(RoundTrip, each_texel_of_a_wide_atlas_is_found_again) {
+TEST(RoundTrip, uv_codes_identify_each_texel_of_a_wide_atlas) {
     for (const int width : {1, 3, 1023, 4096, 16384}) {
         for (int x = 0; x < width; ++x) {
             const std::uint16_t code = uv_code(x, width);

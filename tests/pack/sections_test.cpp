@@ -57,7 +57,7 @@ ChooseParts only(std::vector<std::string> names) {
 
 } // namespace
 
-TEST(Sections, the_manifest_has_those_of_the_format_page) {
+TEST(Sections, manifest_has_the_sections_of_the_format_page) {
     const Json sections = samples::take_apart(samples::bytes_of(samples::full_pack())).manifest["sections"];
     std::vector<std::string> names;
     for (const auto& [name, section] : sections.items()) {
@@ -75,7 +75,7 @@ TEST(Sections, the_manifest_has_those_of_the_format_page) {
         << "a pack without any has none";
 }
 
-TEST(Sections, one_that_nobody_knows_is_ignored_and_its_parts_are_checked) {
+TEST(Sections, unknown_section_is_kept_and_its_parts_are_checked) {
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     entries.parts.push_back({"relief_blocks/0.bin", samples::some_bytes("to come")});
     entries.manifest["parts"].push_back({{"name", "relief_blocks/0.bin"}, {"bytes", 0}, {"sha256", ""}});
@@ -92,7 +92,7 @@ TEST(Sections, one_that_nobody_knows_is_ignored_and_its_parts_are_checked) {
               std::string::npos);
 }
 
-TEST(Sections, a_reader_of_chosen_levels_reads_none_of_their_parts) {
+TEST(Sections, reader_of_chosen_levels_skips_section_parts) {
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::full_pack()));
     for (const char* name : {"sounds/en/0.opus", "glyphs/runs.bin", "table_picture.png"}) {
         entries.part(name)[0] ^= std::byte{1}; // the container's checksum is valid, the hash is not
@@ -110,7 +110,7 @@ TEST(Sections, a_reader_of_chosen_levels_reads_none_of_their_parts) {
     EXPECT_FALSE(verify_pack(bytes));
 }
 
-TEST(Sections, that_are_defined_are_exact) {
+TEST(Sections, invalid_known_sections_are_refused) {
     expect_refused("sections.identity.data.colour",
                    [](Json& m) { m["sections"]["identity"]["data"]["colour"] = 1; });
     expect_refused("sections.identity.data.id is missing",
@@ -135,7 +135,7 @@ TEST(Sections, that_are_defined_are_exact) {
                    [](Json& m) { m["sections"]["details"]["data"]["captions"][0]["maker"] = "\x1b[2J"; });
 }
 
-TEST(Sections, hotspots_lie_on_the_artifact_and_look_outward) {
+TEST(Sections, invalid_hotspots_are_refused) {
     const auto hotspot = [](Json& m) -> Json& { return m["sections"]["hotspots"]["data"]["hotspots"][0]; };
     expect_refused("hotspot 0 lies at", [&](Json& m) { hotspot(m)["point"] = {0.6, 0.0, 0.0}; });
     expect_refused("hotspot 0 lies at", [&](Json& m) { hotspot(m)["point"] = {0.0, 0.0, -0.1}; });
@@ -153,7 +153,7 @@ TEST(Sections, hotspots_lie_on_the_artifact_and_look_outward) {
     });
 }
 
-TEST(Sections, have_few_plain_names_and_bounded_depth) {
+TEST(Sections, names_counts_sizes_and_depth_are_limited) {
     expect_refused("a section is called 'Texts'", [](Json& m) {
         m["sections"]["Texts"] = {{"parts", Json::array()}, {"data", Json::object()}};
     });
@@ -218,7 +218,7 @@ TEST(Sections, the_writer_refuses_what_the_reader_would) {
     refused("1025 x 1", [](Pack& p) { p.table_picture = image::Image8(1025, 1); });
 }
 
-TEST_F(PackFile, a_card_has_what_the_table_shows) {
+TEST_F(PackFile, card_has_id_titles_languages_and_picture) {
     write();
     const Result<PackCard> card = load_pack_card(file);
     ASSERT_TRUE(card) << card.error().message;
@@ -242,7 +242,7 @@ TEST_F(PackFile, a_card_does_not_depend_on_levels_and_sounds) {
     EXPECT_EQ(card.error().message, "sections.fspack: table_picture.png is damaged; copy the pack again");
 }
 
-TEST_F(PackFile, a_pack_without_a_picture_has_a_card_without_one) {
+TEST_F(PackFile, card_of_a_pack_without_picture_is_empty) {
     ASSERT_TRUE(write_file(file, samples::bytes_of(samples::pack())));
     const Result<PackCard> card = load_pack_card(file);
     ASSERT_TRUE(card) << card.error().message;
@@ -265,7 +265,7 @@ TEST_F(PackFile, a_part_is_read_without_the_others) {
     EXPECT_FALSE(load_section_parts("nowhere.fspack", only({})));
 }
 
-TEST_F(PackFile, what_is_read_of_a_file_is_what_is_read_of_its_bytes) {
+TEST_F(PackFile, file_and_bytes_give_the_same_result) {
     write();
     const Bytes bytes = samples::bytes_of(samples::full_pack());
     for (std::size_t size = 0; size <= bytes.size(); size += size < 100 ? 7 : 211) {

@@ -43,7 +43,7 @@ void expect_same(const SeenErrors& a, const SeenErrors& b) {
     }
 }
 
-TEST(SeenErrors, ComeBackUnchangedThroughAFile) {
+TEST(SeenErrors, RoundTrip) {
     Pack pack = samples::pack();
     put_seen_errors(some(), pack);
     const Result<VerifiedPack> back = verify_pack(samples::bytes_of(pack));
@@ -56,7 +56,7 @@ TEST(SeenErrors, ComeBackUnchangedThroughAFile) {
     EXPECT_EQ(data["levels"][0]["eyes"][0]["mean_box"], 0.1); // few digits
 }
 
-TEST(SeenErrors, OfReliefsStandInASectionOfTheirOwn) {
+TEST(SeenErrors, StoresReliefErrorsInTheirOwnSection) {
     SeenErrors errors = some();
     errors.reliefs = {errors.levels[1]};
     Pack pack = samples::pack();
@@ -76,14 +76,14 @@ TEST(SeenErrors, OfReliefsStandInASectionOfTheirOwn) {
               std::string::npos);
 }
 
-TEST(SeenErrors, AreEmptyInAnOlderPack) {
+TEST(SeenErrors, AreEmptyWithoutASection) {
     const Result<SeenErrors> seen = seen_errors_of(samples::pack(), 2);
     ASSERT_TRUE(seen);
     EXPECT_TRUE(seen->eyes.empty());
     EXPECT_TRUE(seen->levels.empty());
 }
 
-TEST(SeenErrors, ThatAreNotWhatTheFormatSaysAreRefused) {
+TEST(SeenErrors, RejectsMalformedData) {
     const auto refusal = [](auto alter) {
         Pack pack = samples::pack();
         put_seen_errors(some(), pack);

@@ -40,7 +40,7 @@ TEST(States, a_pack_written_and_read_has_the_same_states) {
     EXPECT_TRUE(check_world(**read));
 }
 
-TEST(States, of_a_pack_with_a_world_are_written_again_byte_for_byte) {
+TEST(States, rewriting_a_pack_with_states_gives_the_same_bytes) {
     Pack pack = samples::pack_with_world();
     ASSERT_TRUE(put_states(pack, three_states()));
     // A pack that is read has the parts in the order of its manifest's sections, and no longer in that of the calls which put them.
@@ -54,7 +54,7 @@ TEST(States, of_a_pack_with_a_world_are_written_again_byte_for_byte) {
     EXPECT_EQ((*read)->sections, (*made)->sections);
 }
 
-TEST(States, none_leave_a_pack_as_it_is_to_the_byte) {
+TEST(States, empty_states_do_not_change_the_bytes) {
     const Pack before = samples::pack_with_world();
     Pack after = before;
     ASSERT_TRUE(put_states(after, {}));
@@ -62,7 +62,7 @@ TEST(States, none_leave_a_pack_as_it_is_to_the_byte) {
     EXPECT_TRUE(states_of(after).value().empty());
 }
 
-TEST(States, that_a_pack_does_not_allow_are_told) {
+TEST(States, reports_invalid_states_in_one_line) {
     EXPECT_EQ(refused_states([](std::vector<PackState>&) {}), "");
     const auto told = [](const std::function<void(std::vector<PackState>&)>& alter,
                          std::initializer_list<std::string_view> parts) {
@@ -80,7 +80,7 @@ TEST(States, that_a_pack_does_not_allow_are_told) {
     told([](auto& states) { states[1].layer = 0; }, {"[state_section.index]", "layer 0"});
 }
 
-TEST(States, of_an_altered_section_are_told) {
+TEST(States, reports_an_altered_section) {
     Pack pack = samples::pack_with_world();
     ASSERT_TRUE(put_states(pack, three_states()));
     const auto told = [&](const std::string& from, const std::string& to, std::string_view word) {

@@ -28,7 +28,7 @@ std::size_t letter_count(std::string_view text) {
 
 } // namespace
 
-TEST(TextPortions, short_sentences_stay_together_and_long_ones_are_apart) {
+TEST(TextPortions, joins_short_sentences_and_separates_long_ones) {
     const std::string first = "A slender clay jar stands on a small round foot. Its belly swells.";
     const std::string second =
         "Two handles, each of three reeds side by side, rise from the neck and bend down to "
@@ -39,7 +39,7 @@ TEST(TextPortions, short_sentences_stay_together_and_long_ones_are_apart) {
     EXPECT_TRUE(portions_of(" \n ").empty());
 }
 
-TEST(TextPortions, a_stop_of_an_abbreviation_ends_no_sentence) {
+TEST(TextPortions, abbreviation_does_not_end_a_sentence) {
     const std::string sentence =
         "Der Krug ist um 540 v. Chr. in der Werkstatt von Exekias gemacht und im 19. "
         "Jahrhundert nahe der Stadt Vulci in einem Grab der Etrusker gefunden worden.";
@@ -66,7 +66,7 @@ TEST(TextPortions, scripts_without_spaces_are_cut_behind_their_stops) {
 }
 
 /// No text is lost by the cuts, and no portion is much longer than a caption.
-TEST(TextPortions, hold_all_of_the_text_in_any_script) {
+TEST(TextPortions, keep_the_whole_text_in_any_script) {
     const std::vector<std::string> sentences{"One two three four five six seven. ",
                                              "Was ist das? ",
                                              "Ein »Wort«, das niemand kennt; ",
@@ -94,7 +94,7 @@ TEST(TextPortions, hold_all_of_the_text_in_any_script) {
     }
 }
 
-TEST(TextPortions, are_read_at_the_pace_of_their_script) {
+TEST(TextPortions, reading_time_depends_on_the_script) {
     EXPECT_NEAR(reading_time_s(std::string(150, 'a')), 10.0, 1e-9);
     EXPECT_NEAR(reading_time_s("一只陶罐立。"), 6.0 / 5.0, 1e-9);
     EXPECT_NEAR(reading_time_s("جرة"), 3.0 / 15.0, 1e-9);

@@ -17,7 +17,7 @@ std::string fault(const std::string& text, TextShape shape = TextShape::Line) {
 
 } // namespace
 
-TEST(Text, of_any_script_is_clean) {
+TEST(Text, accepts_any_script) {
     for (const char* text : {"", "Neck-amphora", "Αμφορέας", "מִזְמוֹר", "أمفورا (540)", "अम्फोरा", "แอมโฟรา",
                              "双耳瓶", "👩‍🎨",
                              "\xE2\x80\x8E"
@@ -26,7 +26,7 @@ TEST(Text, of_any_script_is_clean) {
     }
 }
 
-TEST(Text, that_is_no_utf8_is_told_where) {
+TEST(Text, reports_the_position_of_invalid_utf8) {
     EXPECT_NE(fault("ab\xFF").find("not UTF-8 from byte 2"), std::string::npos);
     EXPECT_NE(fault("\xED\xA0\x80").find("not UTF-8 from byte 0"), std::string::npos)
         << "an unpaired surrogate";
@@ -34,7 +34,7 @@ TEST(Text, that_is_no_utf8_is_told_where) {
     EXPECT_NE(fault("\xF4\x90\x80\x80").find("not UTF-8"), std::string::npos) << "beyond U+10FFFF";
 }
 
-TEST(Text, with_control_characters_names_them) {
+TEST(Text, names_control_characters) {
     EXPECT_NE(fault("a\x1b[2J").find("U+001B"), std::string::npos);
     EXPECT_NE(fault("a\xC2\x85").find("U+0085"), std::string::npos);
     EXPECT_NE(fault("two\nlines").find("U+000A"), std::string::npos);
@@ -42,7 +42,7 @@ TEST(Text, with_control_characters_names_them) {
     EXPECT_NE(fault("\r\n", TextShape::Lines).find("U+000D"), std::string::npos);
 }
 
-TEST(Text, cannot_turn_the_direction_of_what_follows) {
+TEST(Text, rejects_direction_overrides_and_unbalanced_isolates) {
     EXPECT_NE(fault(std::string("a") + right_to_left_override + "b").find("U+202E"), std::string::npos);
     EXPECT_NE(fault("\xE2\x80\xAA").find("U+202A"), std::string::npos);
     EXPECT_EQ(fault(std::string("year ") + isolate + "540" + end_of_isolate + " BC"), "");
@@ -52,7 +52,7 @@ TEST(Text, cannot_turn_the_direction_of_what_follows) {
               std::string::npos);
 }
 
-TEST(Text, is_bounded) {
+TEST(Text, length_and_line_count_are_limited) {
     EXPECT_EQ(fault(std::string(1000, 'x')), "");
     EXPECT_NE(fault(std::string(1001, 'x')).find("1001 bytes"), std::string::npos);
     EXPECT_EQ(fault(std::string(100000, 'x'), TextShape::Lines), "");
@@ -61,7 +61,7 @@ TEST(Text, is_bounded) {
     EXPECT_NE(fault(std::string(10000, '\n'), TextShape::Lines).find("1000 lines"), std::string::npos);
 }
 
-TEST(Text, an_id_is_a_short_plain_word) {
+TEST(Text, accepts_only_short_plain_ids) {
     for (const char* id : {"a", "0", "museum-1234.a_b", "b7c1e3f0"}) {
         EXPECT_TRUE(is_artifact_id(id)) << id;
     }

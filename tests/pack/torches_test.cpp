@@ -151,7 +151,7 @@ TEST(Torches, each_picture_frame_and_layer_is_read_alone) {
     EXPECT_FALSE(load_layer_colours(file, torches.layers[0], 1, 2 * corners)) << "of another relief";
 }
 
-TEST(Torches, a_pack_without_contents_is_as_before) {
+TEST(Torches, empty_contents_do_not_change_the_bytes) {
     Pack pack = samples::pack_with_reliefs();
     const Bytes before = samples::bytes_of(pack);
     ASSERT_TRUE(put_torches(pack, {}, {}));
@@ -160,7 +160,7 @@ TEST(Torches, a_pack_without_contents_is_as_before) {
     EXPECT_TRUE(check_torches(pack));
 }
 
-TEST(Torches, a_cell_has_the_artifacts_layers_and_no_contents) {
+TEST(Torches, cell_must_have_the_artifacts_layers_and_no_contents) {
     const auto with_layer = [](Pack pack, const char* name) {
         TorchParts its;
         TorchParts::Layer& layer = its.layers.emplace_back();
@@ -188,7 +188,7 @@ TEST(Torches, a_cell_has_the_artifacts_layers_and_no_contents) {
     expect_told(told(samples::pack(), with_content), "[world.nested_torches]");
 }
 
-TEST(Torches, a_layers_colours_lie_where_the_format_page_says) {
+TEST(Torches, layer_colours_match_the_format_page) {
     const std::vector<glm::u8vec4> colours = layer_colours(7);
     const Bytes bytes = encode_colours(colours);
     ASSERT_EQ(bytes.size(), 12U + 4U * corners);
@@ -201,7 +201,7 @@ TEST(Torches, a_layers_colours_lie_where_the_format_page_says) {
     EXPECT_EQ(std::to_integer<int>(bytes[12 + 3 * corners]), 255 - 7) << "the first alpha";
 }
 
-TEST(Torches, contents_that_are_not_allowed_are_told) {
+TEST(Torches, reports_invalid_contents_in_one_line) {
     ASSERT_EQ(refusal([](PackTorches&, TorchParts&) {}), "");
     using Alter = std::function<void(PackTorches&, TorchParts&)>;
     struct Fault {
@@ -277,7 +277,7 @@ TEST(Torches, contents_that_are_not_allowed_are_told) {
     }
 }
 
-TEST(Torches, data_that_are_not_allowed_are_told) {
+TEST(Torches, reports_invalid_section_data_in_one_line) {
     expect_told(refusal_of_data(R"("blend":"over")", R"("blend":"under")"), "'under'");
     expect_told(refusal_of_data(R"("blend":"over")", R"("shader":"x","blend":"over")"), "shader");
     expect_told(refusal_of_data(R"("frames":3)", R"("frames":1000000)"), "frames");

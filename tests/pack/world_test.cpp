@@ -62,7 +62,7 @@ protected:
 
 } // namespace
 
-TEST_F(WorldFile, is_read_as_it_was_written) {
+TEST_F(WorldFile, round_trip) {
     const Pack pack = samples::pack_with_world();
     const Bytes bytes = samples::bytes_of(pack);
     const Result<VerifiedPack> read = verify_pack(bytes);
@@ -95,7 +95,7 @@ TEST_F(WorldFile, a_cell_is_read_alone) {
     EXPECT_FALSE(load_cell("world.fspack", world.cells[0])) << "its hash is wrong";
 }
 
-TEST_F(WorldFile, keeps_that_its_cells_are_drawn_at_rest) {
+TEST_F(WorldFile, stores_drawn_at_rest_and_rejects_it_without_geometry) {
     PackWorld world = samples::world();
     world.drawn_at_rest = true;
     Pack pack = samples::full_pack();
@@ -111,7 +111,7 @@ TEST_F(WorldFile, keeps_that_its_cells_are_drawn_at_rest) {
         << refused.error().message;
 }
 
-TEST(World, without_cells_is_empty) {
+TEST(World, is_empty_and_adds_no_bytes_without_cells) {
     EXPECT_EQ(world_of(samples::full_pack()).value(), PackWorld());
     EXPECT_TRUE(check_world(samples::full_pack()));
     Pack pack = samples::full_pack();
@@ -147,7 +147,7 @@ TEST(World, cells_are_stored_as_packs_of_their_own) {
     EXPECT_NEAR(hinge["rotation"][3].get<double>(), std::cos(0.25), 1e-15);
 }
 
-TEST(World, levels_that_are_chosen_are_read_as_without_cells) {
+TEST(World, chosen_levels_are_read_without_the_cells) {
     Bytes bytes = samples::bytes_of(samples::pack_with_world());
     // A reader of levels does not look at the cells.
     samples::Entries entries = samples::take_apart(bytes);
@@ -181,7 +181,7 @@ TEST(World, signing_changes_no_byte_of_its_parts) {
     EXPECT_EQ(after.manifest, before.manifest);
 }
 
-TEST(World, the_importer_holds_every_cell_against_its_hash) {
+TEST(World, part_check_detects_an_altered_cell) {
     const Bytes bytes = samples::bytes_of(samples::pack_with_world());
     Result<PackReader> reader = PackReader::open(bytes);
     ASSERT_TRUE(reader);
@@ -194,7 +194,7 @@ TEST(World, the_importer_holds_every_cell_against_its_hash) {
     EXPECT_FALSE(check_parts(*wrong, [](std::uint64_t) {}));
 }
 
-TEST(World, as_many_cells_as_allowed_fit_with_the_longest_numbers_and_names) {
+TEST(World, maximum_number_of_cells_fits_the_section) {
     // Seventeen digits and an exponent: no number is longer.
     constexpr double longest = -2.2250738585072014e-308;
     PackCell cell = samples::cells()[2];
@@ -223,7 +223,7 @@ TEST(World, as_many_cells_as_allowed_fit_with_the_longest_numbers_and_names) {
     EXPECT_EQ(world_of(*verify_pack(samples::bytes_of(pack)).value()).value(), chain);
 }
 
-TEST(Curves, lie_where_the_format_page_says) {
+TEST(Curves, encoding_matches_the_format_page) {
     const std::vector<StoredCurve> curves{
         {{world::Interpolation::Linear, {0.0F, 2.0F}, {{0, 0, 0, 1}, {1, 0, 0, 0}}}, 4},
         {{world::Interpolation::Step, {0.5F}, {{1, -1, 0.25F, 0}}}, 3}};

@@ -50,14 +50,14 @@ class Extraction(unittest.TestCase):
             (4, "program one"), (5, 'FOO=1 sudo program two --three "#4" && other >file'), (13, "indented [--option A | --other] [FILE]"),
             (11, "./test hil"), (11, "run --out"), (11, "--seed"), (15, "frustumscreen status --json")])
 
-    def test_a_line_is_its_simple_commands(self):
+    def test_splits_a_line_into_simple_commands(self):
         self.assertEqual(self.commands[1].simple_commands(), [["program", "two", "--three", "#4"], ["other"]])
 
-    def test_what_is_in_brackets_is_looked_at_and_not_run(self):
+    def test_bracketed_words_are_checked_but_not_required(self):
         self.assertEqual(self.commands[2].simple_commands(), [["indented", "--option", "A", "--other", "FILE"]])
         self.assertEqual(self.commands[2].required, "indented")
 
-    def test_examples_of_a_help(self):
+    def test_finds_the_examples_of_a_help(self):
         self.assertEqual(texts(examples_of("x --help", "usage: x\n\nexamples:\n  x --a\n  x --b\n\nmore:\n  y\n")), [(4, "x --a"), (5, "x --b")])
 
 
@@ -71,7 +71,7 @@ class Teeth(unittest.TestCase):
         page = f"```\nfrustumscreen states --dot\n{line}\n```\n"
         return [(command.place, wrong) for command in commands_of("docs/page.md", page) for wrong in self.checks.objections(command)]
 
-    def test_what_no_program_takes(self):
+    def test_rejects_unknown_options_and_programs(self):
         for line, said in (("frustumscreen run --confg kiosk.toml", "frustumscreen has no option --confg here"),
                            ("frustumscreen rnu", "frustumscreen has no subcommand 'rnu'"),
                            ("frustumscreen-bake --batch DIR --preview x.html", "frustumscreen-bake has no option --preview here"),
@@ -82,33 +82,33 @@ class Teeth(unittest.TestCase):
                            ("ctest --test-dir build/release -R '^no_such_test$'", "ctest finds no test so")):
             self.assertEqual(self.wrong(line), [("docs/page.md:3", said)])
 
-    def test_the_log_of_a_run_of_ctest_stays(self):
+    def test_keeps_the_log_of_ctest(self):
         log = BUILD / "Testing/Temporary/LastTest.log"
         before = log.stat() if log.exists() else None
         self.assertEqual(self.wrong("ctest --test-dir build/release -C long -R one_definition"), [])
         after = log.stat() if log.exists() else None
         self.assertEqual(before and before.st_ino, after and after.st_ino)
 
-    def test_an_unknown_option_in_a_sentence(self):
+    def test_rejects_an_unknown_option_in_a_sentence(self):
         command, = commands_of("page.md", "\nwith `--no-such-option`")
         self.assertEqual((command.place, self.checks.objections(command)), ("page.md:2", ["no program has an option --no-such-option"]))
 
-    def test_what_programs_take(self):
+    def test_accepts_valid_commands(self):
         for line in ("frustumscreen-bake --up -z FILE", "frustumscreen run --config FILE --seconds 8", "cd x && ./test hil --only pose"):
             self.assertEqual(self.wrong(line), [])
 
-    def test_what_may_run(self):
+    def test_decides_which_commands_may_run(self):
         for line, may in (("frustumscreen states && cp a b", True), ("sudo frustumscreen states", False), ("rm -r /", False), ("./run", False)):
             command, = commands_of("page.md", f"```\n{line}\n```\n")
             self.assertEqual(self.checks.may_run(command), may, line)
 
-    def test_every_preset_is_built_by_a_word(self):
+    def test_build_script_knows_every_preset(self):
         presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["buildPresets"]
         for preset in presets:
             ran = subprocess.run([SOURCE / "cmake/build.sh", preset["name"], "--without", "nothing"], capture_output=True, text=True, check=False)
             self.assertIn("there is no part 'nothing'", ran.stderr, preset["name"])
 
-    def test_a_mention_lacks_what_is_required(self):
+    def test_detects_incomplete_commands(self):
         program = BUILD / "bin/frustumscreen"
         self.assertFalse(accepted.is_complete(program, ["run", "--headless"]))
         self.assertTrue(accepted.is_complete(program, ["run", "--config", "FILE"]))
@@ -125,7 +125,7 @@ class Zone(unittest.TestCase):
     def size_cm(self, settings):
         return " x ".join(f"{200 * half:.0f}" for half in self.lit_zone(settings)["whole"]["all_eyes"]["rectangle_half_m"]) + " cm"
 
-    def test_the_wide_zone_is_as_wide_as_promised(self):
+    def test_wide_zone_is_as_wide_as_documented(self):
         whole = self.lit_zone("wide.toml")["whole"]
         for half, min_m in zip(whole["all_eyes"]["rectangle_half_m"], (0.5, 0.25)):
             self.assertGreaterEqual(2 * half, min_m)
@@ -136,7 +136,7 @@ class Zone(unittest.TestCase):
                                ("config/wide.toml", f"{wide}, in place of {shipped[:-3]},")):
             self.assertIn(promised, (SOURCE / name).read_text(encoding="utf-8"), name)
 
-    def test_the_built_in_amphora_is_whole_all_over_the_wide_zone(self):
+    def test_amphora_is_whole_in_the_wide_zone(self):
         lines = ["t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok"]
         for step in range(1200):
             x, y = (step % 5 - 2) * 0.125, (step // 5 % 5 - 2) * 0.0625  # up to the edges of 50 x 25 cm
@@ -159,7 +159,7 @@ class Zone(unittest.TestCase):
         self.assertEqual(losing["wide.toml"], [])
         self.assertGreater(len(losing["kiosk.toml"]), 20)
 
-    def test_the_promised_zone_is_the_computed_one(self):
+    def test_documented_zone_equals_the_computed_one(self):
         lit = self.lit_zone("kiosk.toml")
         page = (SOURCE / "docs/designers.md").read_text(encoding="utf-8")
         rows = (("for all eyes", lit["whole"]["all_eyes"]), ("for eyes as high as", lit["whole"]["eyes_like_default"]),

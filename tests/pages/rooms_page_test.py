@@ -44,7 +44,7 @@ class RoomsPage(unittest.TestCase):
             self.assertLessEqual(code.count("\n"), 25, f"{room}: too long to be an example")
             self.assertEqual({line.strip() for line in code.splitlines()} - tested, set(), room)
 
-    def test_lacks_are_told_in_one_sentence(self):
+    def test_reports_missing_parts_in_one_line(self):
         with tempfile.TemporaryDirectory() as folder:
             house = pathlib.Path(folder)
             for part in ("cmake", "firmware_host/base", "tests/examples"):

@@ -83,7 +83,7 @@ template <typename Done> bool until(ButtonPanel& panel, std::vector<PanelEvent>&
     });
 }
 
-TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
+TEST(ButtonPanel, ReportsPressesAndReopensAnUnpluggedChip) {
     FakeChip chip;
     ButtonTimes times;
     times.debounce = debounce;
@@ -110,7 +110,7 @@ TEST(ButtonPanel, APressComesThroughAndAnUnpluggedChipIsFoundAgain) {
     EXPECT_EQ(events[0].button, 2);
 }
 
-TEST(ButtonPanel, TheChordIsHeldUntilAButtonIsLetGoOrNobodyKnows) {
+TEST(ButtonPanel, ChordEndsOnReleaseTimeoutOrUnplug) {
     FakeChip chip;
     ButtonTimes times;
     times.debounce = debounce;
@@ -137,7 +137,7 @@ TEST(ButtonPanel, TheChordIsHeldUntilAButtonIsLetGoOrNobodyKnows) {
     EXPECT_FALSE(held());
 }
 
-TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
+TEST(ButtonPanel, KeepsTheNewestEventsWithoutPolling) {
     FakeChip chip;
     ButtonTimes times;
     times.debounce = debounce;
@@ -160,7 +160,7 @@ TEST(ButtonPanel, NobodyWhoPollsMakesItForgetTheNewest) {
     EXPECT_EQ(events.back().button, 2);
 }
 
-TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
+TEST(ButtonPanel, LightsRequestedLampsExceptThoseOfStuckButtons) {
     FakeChip chip;
     const auto lit = [&chip](bool a, bool b, bool c) {
         return chip.lit[0] == a && chip.lit[1] == b && chip.lit[2] == c;
@@ -190,7 +190,7 @@ TEST(ButtonPanel, LampsAreLitAsWishedButNotAStuckButtonsAndAreDarkAfterwards) {
     EXPECT_TRUE(lit(false, false, false));
 }
 
-TEST(ButtonPanel, AButtonThatChattersIsSaidAndItsLampIsDarkUntilItIsQuiet) {
+TEST(ButtonPanel, ReportsAChatteringButtonAndDarkensItsLamp) {
     FakeChip chip;
     ButtonTimes times;
     times.debounce = debounce;
@@ -211,7 +211,7 @@ TEST(ButtonPanel, AButtonThatChattersIsSaidAndItsLampIsDarkUntilItIsQuiet) {
     ASSERT_TRUE(until(panel, events, [&] { return chip.lit[1].load(); }));
 }
 
-TEST(ButtonPanel, WhatDoesNotWorkThoughTheButtonsAreThereIsSaidUnlessAButtonIsStuck) {
+TEST(ButtonPanel, ReportsTheRemarkUnlessAButtonIsStuck) {
     FakeChip chip;
     chip.remark = "a lamp cannot be lit";
     ButtonTimes times;
@@ -228,7 +228,7 @@ TEST(ButtonPanel, WhatDoesNotWorkThoughTheButtonsAreThereIsSaidUnlessAButtonIsSt
     ASSERT_TRUE(until(panel, events, [&] { return panel.state() == "a lamp cannot be lit"; }));
 }
 
-TEST(ButtonPanel, AChipThatIsNotThereIsSaidInOneSentence) {
+TEST(ButtonPanel, NamesAMissingChip) {
     const Result<std::unique_ptr<ButtonLines>> lines = open_gpio_lines({"no-such-chip", {"0"}});
     ASSERT_FALSE(lines);
     EXPECT_EQ(lines.error().kind, ErrorKind::DeviceLost);

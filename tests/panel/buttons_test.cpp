@@ -50,7 +50,7 @@ private:
     std::array<bool, 3> levels_{};
 };
 
-TEST(Buttons, APressCountsOnceFromWhenItBegan) {
+TEST(Buttons, ReportsAPressOnceWithItsBeginTime) {
     Fingers fingers;
     const MonotonicTime began = fingers.now();
     fingers.press(1, milliseconds(200));
@@ -60,7 +60,7 @@ TEST(Buttons, APressCountsOnceFromWhenItBegan) {
     EXPECT_EQ(fingers.events[0].kind, PressKind::Press);
 }
 
-TEST(Buttons, ContactsBounceWithoutASecondPress) {
+TEST(Buttons, IgnoresBouncingContacts) {
     std::mt19937 engine(1);
     Fingers fingers;
     for (int press = 0; press < 50; ++press) {
@@ -77,7 +77,7 @@ TEST(Buttons, ContactsBounceWithoutASecondPress) {
     EXPECT_EQ(fingers.events.size(), 50U);
 }
 
-TEST(Buttons, AGlitchShorterThanTheDebounceTimeIsNothing) {
+TEST(Buttons, IgnoresGlitchesShorterThanTheDebounceTime) {
     Fingers fingers;
     for (int k = 0; k < 100; ++k) {
         fingers.press(2, milliseconds(29));
@@ -86,7 +86,7 @@ TEST(Buttons, AGlitchShorterThanTheDebounceTimeIsNothing) {
     EXPECT_TRUE(fingers.events.empty());
 }
 
-TEST(Buttons, ALongPressFollowsItsPressOnce) {
+TEST(Buttons, ReportsOneLongPressAfterItsPress) {
     Fingers fingers;
     const MonotonicTime began = fingers.now();
     fingers.press(0, seconds(5));
@@ -97,7 +97,7 @@ TEST(Buttons, ALongPressFollowsItsPressOnce) {
     EXPECT_EQ(fingers.count(PressKind::Press), 2);
 }
 
-TEST(Buttons, FirstAndLastTogetherAreTheStaffsChordAndNoLongPress) {
+TEST(Buttons, FirstAndLastButtonMakeAChordAndNoLongPress) {
     Fingers fingers;
     fingers.set(0, true);
     fingers.run(milliseconds(700));
@@ -117,7 +117,7 @@ TEST(Buttons, FirstAndLastTogetherAreTheStaffsChordAndNoLongPress) {
 }
 
 /// The chord is not an event but a state of the two buttons; it ends with the level, before any debouncing.
-TEST(Buttons, TheChordIsHeldFromItsLatestPressUntilOneOfThemIsLetGo) {
+TEST(Buttons, ChordIsHeldUntilOneOfItsButtonsIsReleased) {
     Fingers fingers;
     fingers.set(0, true);
     fingers.set(1, true);
@@ -140,7 +140,7 @@ TEST(Buttons, TheChordIsHeldFromItsLatestPressUntilOneOfThemIsLetGo) {
     EXPECT_FALSE(fingers.chord_held());
 }
 
-TEST(Buttons, AButtonThatIsStuckHoldsNoChord) {
+TEST(Buttons, StuckButtonsEndTheChord) {
     Fingers fingers;
     fingers.set(0, true);
     fingers.set(2, true);
@@ -151,7 +151,7 @@ TEST(Buttons, AButtonThatIsStuckHoldsNoChord) {
 }
 
 /// Every millisecond: no button waits for more than the debounce time, regardless of the others.
-TEST(Buttons, APressIsSaidAtOnceAlsoWhereItMayBecomeAChord) {
+TEST(Buttons, ReportsAPressAtOnceEvenIfItMayBecomeAChord) {
     for (int apart_ms = 0; apart_ms < 3000; apart_ms += 47) {
         Fingers fingers;
         fingers.set(0, true);
@@ -166,7 +166,7 @@ TEST(Buttons, APressIsSaidAtOnceAlsoWhereItMayBecomeAChord) {
 }
 
 /// A consumer that acted on these two presses must know what to undo.
-TEST(Buttons, AChordBeganWithTheLatestPressOfEachOfItsButtons) {
+TEST(Buttons, ChordIsTimedFromTheLatestPressOfItsButtons) {
     std::mt19937 engine(11);
     int chords = 0;
     for (int run = 0; run < 20; ++run) {
@@ -189,7 +189,7 @@ TEST(Buttons, AChordBeganWithTheLatestPressOfEachOfItsButtons) {
     EXPECT_GT(chords, 20);
 }
 
-TEST(Buttons, AStuckButtonIsReportedOnceAndIgnoredUntilItComesUp) {
+TEST(Buttons, ReportsAStuckButtonOnceAndIgnoresItUntilReleased) {
     Fingers fingers;
     fingers.set(1, true);
     fingers.run(seconds(40));
@@ -204,7 +204,7 @@ TEST(Buttons, AStuckButtonIsReportedOnceAndIgnoredUntilItComesUp) {
     EXPECT_EQ(fingers.count(PressKind::Press), 3);
 }
 
-TEST(Buttons, WhatIsDownAtTheStartIsNoPress) {
+TEST(Buttons, ButtonDownAtTheStartIsNoPress) {
     Buttons buttons(3, {});
     std::vector<PanelEvent> events;
     const std::array<bool, 3> held{true, false, false};
@@ -221,7 +221,7 @@ TEST(Buttons, WhatIsDownAtTheStartIsNoPress) {
 }
 
 /// A wrong `active_low` or bias, or shorted wires: every button is down from the first sample on.
-TEST(Buttons, ButtonsThatAreDownAtTheStartAreNoChordUntilBothWereUp) {
+TEST(Buttons, ButtonsDownAtTheStartMakeNoChordUntilReleased) {
     for (const std::array<bool, 3> held :
          {std::array{true, true, true}, std::array{true, false, false}, std::array{false, false, true}}) {
         Buttons buttons(3, {});
@@ -283,7 +283,7 @@ private:
     std::vector<PanelEvent> events_;
 };
 
-TEST(Buttons, ALooseContactOfFiveKilohertzIsIgnoredUntilItIsQuiet) {
+TEST(Buttons, IgnoresALooseContactUntilItIsQuiet) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         LooseContact contact(seed, 0.1 + 0.02 * seed); // closed for a tenth up to nine tenths of the time
         contact.run(seconds(12), true);
@@ -303,7 +303,7 @@ TEST(Buttons, ALooseContactOfFiveKilohertzIsIgnoredUntilItIsQuiet) {
     }
 }
 
-TEST(Buttons, TheFortiethEdgeWithinTenSecondsIsOneTooManyAndTheThirtyNinthIsNot) {
+TEST(Buttons, FortyEdgesWithinTenSecondsAreChatter) {
     for (const bool too_fast : {false, true}) {
         Fingers fingers;
         const MonotonicTime began = fingers.now();
@@ -325,7 +325,7 @@ TEST(Buttons, TheFortiethEdgeWithinTenSecondsIsOneTooManyAndTheThirtyNinthIsNot)
     }
 }
 
-TEST(Buttons, AChildThatHammersIsHeardAtFirstAndAgainThreeSecondsAfterItLetsGo) {
+TEST(Buttons, IgnoresHammeringUntilThreeSecondsAfterRelease) {
     Fingers fingers;
     MonotonicTime let_go;
     for (int k = 0; k < 70; ++k) { // seven times a second, for ten seconds
@@ -347,7 +347,7 @@ TEST(Buttons, AChildThatHammersIsHeardAtFirstAndAgainThreeSecondsAfterItLetsGo) 
     EXPECT_EQ(fingers.count(PressKind::Chatters), 1);
 }
 
-TEST(Buttons, AVisitorWhoGoesThroughManyArtifactsIsNoLooseContact) {
+TEST(Buttons, FrequentRegularPressesAreNoChatter) {
     Fingers fingers;
     for (int k = 0; k < 100; ++k) { // three in two seconds, continuously
         fingers.set(1, true);
@@ -359,7 +359,7 @@ TEST(Buttons, AVisitorWhoGoesThroughManyArtifactsIsNoLooseContact) {
     EXPECT_EQ(fingers.events.size(), 100U);
 }
 
-TEST(Buttons, OneThatChattersTakesNoPartInTheChordAndMayTurnOutToBeStuck) {
+TEST(Buttons, ChatteringButtonMakesNoChordAndMayBecomeStuck) {
     Fingers fingers;
     const auto hammer = [&] {
         for (int k = 0; k < 40; ++k) {
@@ -380,7 +380,7 @@ TEST(Buttons, OneThatChattersTakesNoPartInTheChordAndMayTurnOutToBeStuck) {
     EXPECT_EQ(fingers.events.back().time, down + seconds(30));
 }
 
-TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {
+TEST(Buttons, AcceptsAnySamplingIntervalAndIgnoresOlderSamples) {
     Buttons buttons(3, {});
     std::vector<PanelEvent> events;
     const std::array<bool, 3> none{};
@@ -400,7 +400,7 @@ TEST(Buttons, SamplesMayComeAtAnyDistanceAndOlderOnesAreIgnored) {
     EXPECT_FALSE(buttons.due());
 }
 
-TEST(Buttons, SamplingOnlyWhenSomethingIsDueGivesTheSameAsSamplingAlways) {
+TEST(Buttons, SamplingOnlyWhenDueEqualsConstantSampling) {
     std::mt19937 engine(7);
     for (int run = 0; run < 40; ++run) {
         std::vector<std::array<bool, 3>> levels; // every millisecond

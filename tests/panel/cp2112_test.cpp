@@ -39,7 +39,7 @@ std::vector<Known> known_configurations() {
     return found;
 }
 
-TEST(Cp2112, PinsThatAreNoGpioAreThoseThatOtherDriversKnow) {
+TEST(Cp2112, PinFunctionsMatchKnownConfigurations) {
     const std::vector<Known> configurations = known_configurations();
     ASSERT_EQ(configurations.size(), 5U);
     for (const Known& known : configurations) {
@@ -53,7 +53,7 @@ TEST(Cp2112, PinsThatAreNoGpioAreThoseThatOtherDriversKnow) {
     }
 }
 
-TEST(Cp2112, OtherBytesSayNothing) {
+TEST(Cp2112, IgnoresOtherAndTruncatedReports) {
     const std::array<std::byte, 5> all{std::byte{2}, std::byte{0}, std::byte{0}, std::byte{7}, std::byte{0}};
     std::array<std::byte, 5> another = all;
     another[0] = std::byte{3};
@@ -65,7 +65,7 @@ TEST(Cp2112, OtherBytesSayNothing) {
     }
 }
 
-TEST(Cp2112, ALineThatIsNoGpioIsToldByItsNumberItsSettingAndItsFunction) {
+TEST(Cp2112, RemarkNamesNumberSettingAndFunctionOfALine) {
     const std::array<std::byte, 5> clock_and_light{std::byte{2}, std::byte{0}, std::byte{0xff}, std::byte{3},
                                                    std::byte{1}};
     const std::array<unsigned, 3> buttons{4, 5, 7};
@@ -79,7 +79,7 @@ TEST(Cp2112, ALineThatIsNoGpioIsToldByItsNumberItsSettingAndItsFunction) {
     EXPECT_EQ(cp2112_remark("cp2112_gpio", {}, buttons, lamps), "") << "nothing was read";
 }
 
-TEST(Cp2112, AChipThatIsNotThereOrIsNoCp2112HasNoConfiguration) {
+TEST(Cp2112, MissingOrOtherChipHasNoConfiguration) {
     EXPECT_TRUE(read_cp2112_configuration("no-such-chip").empty());
     EXPECT_TRUE(read_cp2112_configuration("../../usb/devices").empty());
 }

@@ -43,7 +43,7 @@ protected:
     GpioChip chip;
 };
 
-TEST_F(GpioLines, AreFoundByNameAndByOffsetAndReadInTheirOrder) {
+TEST_F(GpioLines, FindsLinesByNameOrOffsetAndReadsThemInOrder) {
     chip.expect_opening();
     auto lines = open_gpio_lines(three_buttons());
     ASSERT_TRUE(lines) << lines.error().message;
@@ -62,7 +62,7 @@ TEST_F(GpioLines, AreFoundByNameAndByOffsetAndReadInTheirOrder) {
     EXPECT_TRUE(chip.lamps().empty());
 }
 
-TEST_F(GpioLines, AChipIsNamedByItsPathOrNumberToo) {
+TEST_F(GpioLines, FindsAChipByPathOrNumber) {
     for (const char* name : {"/dev/gpiochip2", "2"}) {
         chip.expect_opening();
         LineRequest request = three_buttons();
@@ -71,7 +71,7 @@ TEST_F(GpioLines, AChipIsNamedByItsPathOrNumberToo) {
     }
 }
 
-TEST_F(GpioLines, AreAskedForAsTheSettingsSay) {
+TEST_F(GpioLines, RequestsTheBiasAndPolarityOfTheSettings) {
     const auto flags_for = [this](LineBias bias, bool active_low) {
         chip.expect_opening();
         LineRequest request = three_buttons();
@@ -89,7 +89,7 @@ TEST_F(GpioLines, AreAskedForAsTheSettingsSay) {
     EXPECT_EQ(flags_for(LineBias::Disabled, true), input | low | GPIOHANDLE_REQUEST_BIAS_DISABLE);
 }
 
-TEST_F(GpioLines, LampsAreDarkAtTheBeginningAndFollow) {
+TEST_F(GpioLines, LampsStartDarkAndFollowRequests) {
     chip.expect_opening();
     LineRequest request = three_buttons();
     request.lamps = {"3", "L5"};
@@ -108,7 +108,7 @@ TEST_F(GpioLines, LampsAreDarkAtTheBeginningAndFollow) {
     EXPECT_EQ(failed.error().id, "panel.lamps_lost") << failed.error().message;
 }
 
-TEST_F(GpioLines, ThatAreNotThereAreNamed) {
+TEST_F(GpioLines, NamesMissingLines) {
     for (const char* name : {"8", "99", "L8", "2x", "-1", "99999999999999999999"}) {
         LineRequest request = three_buttons();
         request.lines[1] = name;
@@ -119,7 +119,7 @@ TEST_F(GpioLines, ThatAreNotThereAreNamed) {
     }
 }
 
-TEST_F(GpioLines, ARequestThatTheKernelRefusesSaysWhy) {
+TEST_F(GpioLines, ReportsWhyTheKernelRefusesARequest) {
     LineRequest with_lamps = three_buttons();
     with_lamps.lamps = {"3"};
     const std::array<std::pair<int, const char*>, 4> reasons{{{EBUSY, "another program holds it"},
@@ -135,7 +135,7 @@ TEST_F(GpioLines, ARequestThatTheKernelRefusesSaysWhy) {
     refuses(three_buttons(), "Input/output error");
 }
 
-TEST_F(GpioLines, LampsThatAreRefusedReleaseTheButtons) {
+TEST_F(GpioLines, ReleasesTheButtonsIfLampsAreRefused) {
     LineRequest request = three_buttons();
     request.lamps = {"3"};
     chip.expect_opening(1);
@@ -145,7 +145,7 @@ TEST_F(GpioLines, LampsThatAreRefusedReleaseTheButtons) {
     EXPECT_EQ(offsets_of(chip.requested(false)), (std::vector<std::uint32_t>{2, 4, 6}));
 }
 
-TEST_F(GpioLines, AChipThatIsNotThereIsSaid) {
+TEST_F(GpioLines, NamesAMissingChip) {
     LineRequest request = three_buttons();
     for (const char* name : {"gpiochip7", "/dev/gpiochip7", "/dev/hidraw0", "7", "no such label"}) {
         request.chip = name;
@@ -157,7 +157,7 @@ TEST_F(GpioLines, AChipThatIsNotThereIsSaid) {
     }
 }
 
-TEST_F(GpioLines, ALostChipEndsTheReading) {
+TEST_F(GpioLines, ReadingALostChipFails) {
     chip.expect_opening();
     auto lines = open_gpio_lines(three_buttons());
     ASSERT_TRUE(lines) << lines.error().message;
@@ -170,7 +170,7 @@ TEST_F(GpioLines, ALostChipEndsTheReading) {
         << read.error().message;
 }
 
-TEST_F(GpioLines, LinesWithAFunctionOfTheChipAreRemarked) {
+TEST_F(GpioLines, RemarksOnLinesWithAnotherFunction) {
     chip.configuration[3] = std::byte{2}; // TX toggle on line 0
     LineRequest request = three_buttons();
     request.lines[0] = "0";
@@ -180,7 +180,7 @@ TEST_F(GpioLines, LinesWithAFunctionOfTheChipAreRemarked) {
     EXPECT_NE((*lines)->remark().find("line 0 (panel.lines)"), std::string_view::npos) << (*lines)->remark();
 }
 
-TEST_F(GpioLines, APanelOverThemHearsAPressAndFindsThePluggedChipAgain) {
+TEST_F(GpioLines, PanelReportsPressesAndReopensAnUnpluggedChip) {
     chip.expect_opening();
     chip.expect_opening();
     ButtonTimes times;

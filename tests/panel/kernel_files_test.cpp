@@ -33,7 +33,7 @@ std::string listed_chip(const std::string& device) {
            "P: " + device + "/gpiochip2\nE: SUBSYSTEM=gpio\n\n" + "P: " + device + "\nE: SUBSYSTEM=hid\n\n";
 }
 
-TEST(Cp2112Files, TheConfigurationIsReadThroughTheHidrawDeviceBesideTheGpioChip) {
+TEST(Cp2112Files, ReadsTheConfigurationFromTheHidrawDevice) {
     Answer answer{5, bytes_of({2, 0, 0xff, 3, 0})};
     const PluggedDevices chip(listed_chip(hid_device), "/dev/hidraw0", [&](const Asked& asked) {
         return asked.request() == HIDIOCGFEATURE(5) ? answer : Answer{-ENOTTY, {}};
@@ -46,7 +46,7 @@ TEST(Cp2112Files, TheConfigurationIsReadThroughTheHidrawDeviceBesideTheGpioChip)
     EXPECT_TRUE(read_cp2112_configuration("gpiochip2").empty());
 }
 
-TEST(Cp2112Files, AnotherChipIsNotAsked) {
+TEST(Cp2112Files, DoesNotQueryAnotherChip) {
     const std::string device = "/devices/platform/0003:10C4:EA91.0001";
     const PluggedDevices chip(listed_chip(device), "/dev/hidraw0", [&](const Asked&) {
         ADD_FAILURE() << "nobody is to ask it";
@@ -56,7 +56,7 @@ TEST(Cp2112Files, AnotherChipIsNotAsked) {
 }
 
 /// Equivalent to a file that this user may not open.
-TEST(Cp2112Files, WhereTheHidrawDeviceCannotBeOpenedNothingIsSaid) {
+TEST(Cp2112Files, HasNoConfigurationIfTheHidrawDeviceCannotBeOpened) {
     std::string listed = listed_chip(hid_device);
     listed.erase(listed.find("N: hidraw0"), std::strlen("N: hidraw0\n")); // the file is missing
     const PluggedDevices chip(listed);
@@ -99,14 +99,14 @@ private:
                            "/dev/input/event1", [this](const Asked& asked) { return answer(asked); }};
 };
 
-TEST(KeyFiles, AKeyboardIsKeptFromEverybodyElse) {
+TEST(KeyFiles, GrabsTheKeyboardExclusively) {
     Keyboard keyboard;
     const auto lines = open_key_lines({"/dev/input/event1", {105, 106}});
     ASSERT_TRUE(lines) << lines.error().message;
     EXPECT_EQ(keyboard.grabbed, 1);
 }
 
-TEST(KeyFiles, AKeyboardIsFoundByItsName) {
+TEST(KeyFiles, FindsAKeyboardByItsName) {
     Keyboard keyboard;
     EXPECT_TRUE(open_key_lines({"Bench", {105, 106}}));
     EXPECT_EQ(keyboard.grabbed, 1);
@@ -118,7 +118,7 @@ TEST(KeyFiles, AKeyboardIsFoundByItsName) {
     EXPECT_EQ(keyboard.grabbed, 1) << "no other keyboard is kept";
 }
 
-TEST(KeyFiles, AKeyboardThatAnotherProgramKeepsIsSaidInOneSentence) {
+TEST(KeyFiles, ReportsAKeyboardGrabbedByAnotherProgram) {
     Keyboard keyboard;
     keyboard.held_by_another = true;
     const auto lines = open_key_lines({"/dev/input/event1", {105, 106}});
@@ -131,7 +131,7 @@ TEST(KeyFiles, AKeyboardThatAnotherProgramKeepsIsSaidInOneSentence) {
     EXPECT_TRUE(open_key_lines({"/dev/input/event1", {105, 106}}));
 }
 
-TEST(KeyFiles, AKeyboardWithoutTheKeysIsLeftToOthers) {
+TEST(KeyFiles, DoesNotGrabAKeyboardWithoutTheKeys) {
     Keyboard keyboard;
     EXPECT_FALSE(open_key_lines({"/dev/input/event1", {105, 30}}));
     EXPECT_EQ(keyboard.grabbed, 0);

@@ -45,7 +45,7 @@ protected:
     KeyLevels levels{{left, right}};
 };
 
-TEST_F(KeyLevelsTest, FollowTheKeysThatCount) {
+TEST_F(KeyLevelsTest, FollowsOnlyTheRequestedKeys) {
     EXPECT_FALSE(levels.take(event(key, left, 1)));
     EXPECT_TRUE(levels.down(0));
     EXPECT_FALSE(levels.down(1));
@@ -58,7 +58,7 @@ TEST_F(KeyLevelsTest, FollowTheKeysThatCount) {
     EXPECT_FALSE(levels.down(0));
 }
 
-TEST_F(KeyLevelsTest, DoNotMindWhereAReadCuts) {
+TEST_F(KeyLevelsTest, AcceptsEventsSplitAnywhere) {
     std::vector<std::byte> bytes;
     for (const auto& each : {event(key, left, 1), event(syn, report, 0), event(key, right, 1),
                              event(syn, report, 0), event(key, left, 0), event(syn, report, 0)}) {
@@ -73,7 +73,7 @@ TEST_F(KeyLevelsTest, DoNotMindWhereAReadCuts) {
     }
 }
 
-TEST_F(KeyLevelsTest, AreAskedForAnewWhereTheKernelDroppedSome) {
+TEST_F(KeyLevelsTest, RequestsLevelsAgainAfterDroppedEvents) {
     EXPECT_FALSE(levels.take(event(key, left, 1)));
     EXPECT_TRUE(levels.take(event(syn, dropped, 0)));
     EXPECT_FALSE(levels.take(event(key, right, 1))); // belongs to the incomplete report
@@ -90,7 +90,7 @@ TEST_F(KeyLevelsTest, AreAskedForAnewWhereTheKernelDroppedSome) {
     EXPECT_FALSE(levels.down(1));
 }
 
-TEST_F(KeyLevelsTest, AnyBytesAreTaken) {
+TEST_F(KeyLevelsTest, RecoversFromArbitraryBytes) {
     std::mt19937 random(5);
     std::size_t taken = 0;
     for (int k = 0; k < 20'000; ++k) {
@@ -111,7 +111,7 @@ TEST_F(KeyLevelsTest, AnyBytesAreTaken) {
     EXPECT_TRUE(levels.down(1));
 }
 
-TEST(KeyCodes, AreKnownByTheirNames) {
+TEST(KeyCodes, MapsKeyNamesAndRejectsOthers) {
     const std::vector<std::string> names{"KEY_LEFT", "KEY_RIGHT", "KEY_A"};
     const auto codes = key_codes(names);
     ASSERT_TRUE(codes);
@@ -123,7 +123,7 @@ TEST(KeyCodes, AreKnownByTheirNames) {
     }
 }
 
-TEST(KeyLines, AKeyboardThatIsNotThereIsSaidInOneSentence) {
+TEST(KeyLines, NamesAMissingKeyboard) {
     for (const char* device : {"/dev/input/event-none", "No such keyboard"}) {
         const auto lines = open_key_lines({device, {left}});
         ASSERT_FALSE(lines);
@@ -189,7 +189,7 @@ struct PluggedAtTheEnd {
     ~PluggedAtTheEnd() { keyboard.plug(); }
 };
 
-TEST_F(KeyLevelsTest, PressAButtonThroughAPanelAndComeBackAfterTheyWereUnplugged) {
+TEST_F(KeyLevelsTest, PanelReportsPressesAgainAfterReplugging) {
     PipeKeyboard keyboard;
     ButtonTimes times;
     times.debounce = milliseconds(5);

@@ -14,7 +14,7 @@ std::vector<PanelEvent> polled(ScriptedPanel& panel, Nanoseconds after) {
     return events;
 }
 
-TEST(ScriptedPanel, PressesEachButtonOnceWhenItsTimeHasCome) {
+TEST(ScriptedPanel, PressesEachButtonOnceAtItsTime) {
     ScriptedPanel panel({{seconds(1), 1}, {seconds(2), 0}}, Nanoseconds(0), start);
     EXPECT_TRUE(polled(panel, seconds(1) - Nanoseconds(1)).empty());
     const auto first = polled(panel, seconds(1));
@@ -29,7 +29,7 @@ TEST(ScriptedPanel, PressesEachButtonOnceWhenItsTimeHasCome) {
     EXPECT_TRUE(polled(panel, seconds(2000)).empty());
 }
 
-TEST(ScriptedPanel, BeginsAgainAfterTheRepeat) {
+TEST(ScriptedPanel, RestartsAfterTheRepeatInterval) {
     ScriptedPanel panel({{seconds(0), 1}, {seconds(2), 2}}, seconds(5), start);
     const auto events = polled(panel, seconds(12));
     ASSERT_EQ(events.size(), 6U);

@@ -91,7 +91,7 @@ protected:
     PreviewMedia media;
 };
 
-TEST_F(PreviewPage, LoadsNothingRunsNothingElseAndSaysAll) {
+TEST_F(PreviewPage, ContainsEveryTextAndLoadsNothing) {
     const std::string page = preview_page(pack, facts, media);
     EXPECT_EQ(check(page,
                     "--pictures 12 --sounds 1 --text 'alert(\"1\")</script><img src=http://x/y onerror=z>' "
@@ -103,14 +103,14 @@ TEST_F(PreviewPage, LoadsNothingRunsNothingElseAndSaysAll) {
     EXPECT_NE(check(std::string(page).replace(page.find("<h1"), 0, "<img src=x.png>"), "2>/dev/null"), 0);
 }
 
-TEST_F(PreviewPage, WithoutItsReloadingItIsOneThatRests) {
+TEST_F(PreviewPage, DropsReloadingFromThePage) {
     const std::string page = preview_page(pack, facts, media, PageKind::Reloading);
     EXPECT_EQ(check(page, "--reloads"), 0);
     EXPECT_EQ(check(without_reloading(page), ""), 0);
     EXPECT_EQ(without_reloading(preview_page(pack, facts, media)), preview_page(pack, facts, media));
 }
 
-TEST_F(PreviewPage, APackWithoutTextsAndPlacesHasAPageToo) {
+TEST_F(PreviewPage, WritesAPageForAPackWithoutTexts) {
     pack::PackDescription bare;
     bare.title = "Jug";
     media.turn.marks.clear();
@@ -123,7 +123,7 @@ TEST_F(PreviewPage, APackWithoutTextsAndPlacesHasAPageToo) {
               0);
 }
 
-TEST(TorchPictures, AreWhatTheTorchShowsAtFullIntensity) {
+TEST(TorchPictures, BlendTheLayerLikeTheTorch) {
     const image::Image8 texture(1, 2, {188, 0, 255, 100}); // 0.5, 0 and 1 in linear light
     image::Image8 layer(1, 2, {0, 188, 255, 255});
     layer.at(0, 1).w = 0;
@@ -139,7 +139,7 @@ TEST(TorchPictures, AreWhatTheTorchShowsAtFullIntensity) {
 }
 
 /// RFC 4648, section 10.
-TEST(Base64, IsThatOfTheStandard) {
+TEST(Base64, MatchesTheTestVectorsOfRfc4648) {
     constexpr std::array<std::pair<const char*, const char*>, 7> vectors{{{"", ""},
                                                                           {"f", "Zg=="},
                                                                           {"fo", "Zm8="},
@@ -154,7 +154,7 @@ TEST(Base64, IsThatOfTheStandard) {
     EXPECT_EQ(base64(high), "++//");
 }
 
-TEST(LossyWebp, LooksLikeThePicture) {
+TEST(LossyWebp, StaysCloseToThePicture) {
     image::Image8 picture(64, 48);
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {

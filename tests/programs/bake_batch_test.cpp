@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(BakeBatch, AKilledRunThatGoesOnAndSharesEndAsOneWholeRun) {
+TEST_F(BakeBatch, ResumedAndShardedRunsProduceTheSamePacksAsAWholeRun) {
     ASSERT_EQ(batch("-o whole -j 2"), 1) << "one object is broken: " << text("err.txt");
     EXPECT_NE(text("out.txt").find("4 objects: 3 baked, 1 failed"), std::string::npos) << text("out.txt");
     EXPECT_EQ(count("err.txt", "misspelt: objects/misspelt/artifact.toml:3: siez"), 1U) << text("err.txt");
@@ -117,7 +117,7 @@ TEST_F(BakeBatch, SlurmBakesTheSharesAsAJobArray) {
     expect_same_packs("whole", "packs");
 }
 
-TEST_F(BakeBatch, WhatIsWrongWithTheWholeIsSaidInOneLine) {
+TEST_F(BakeBatch, ReportsErrorsOfTheWholeBatchInOneLine) {
     const auto said = [&](const std::string& command, int status, const std::string& part) {
         EXPECT_EQ(run("frustumscreen-bake " + command), status) << command;
         EXPECT_EQ(count("err.txt", "\n"), 1U) << text("err.txt");

@@ -114,7 +114,7 @@ class BakeCells(unittest.TestCase):
             self.assertAlmostEqual(cell["high"][2], max(heights), places=6)
             self.assertEqual(cell["triangles"], 12)
 
-    def test_without_cells_the_movement_is_told_as_lost(self):
+    def test_reports_lost_movement_without_cells(self):
         with_cells = self.bake()
         report = self.bake("--cells", "none")
         self.assertEqual((report["cells"]["taken"], report["cells"]["cells"]), ("none", []))
@@ -132,7 +132,7 @@ class BakeCells(unittest.TestCase):
         self.assertEqual([cell["name"] for cell in report["cells"]["cells"]], ["chest", "lid"])
         self.assertEqual(report["cells"]["behaviours"], [])
 
-    def test_cells_are_found_only_where_they_pay(self):
+    def test_auto_uses_cells_only_when_they_pay_off(self):
         report = self.bake("--cells", "auto")
         self.assertEqual(report["cells"]["taken"], "nodes", "its animation needs them")
         still = gltf()
@@ -143,7 +143,7 @@ class BakeCells(unittest.TestCase):
         self.assertRegex(report["cells"]["why"], r"^one cell: \d+\.\d floors whole, at least \d+\.\d in cells$")
         self.assertNotIn("cells", self.sections())
 
-    def test_a_word_that_is_no_way_to_cut_is_refused(self):
+    def test_rejects_unknown_cells_option(self):
         self.assertIn("--cells", self.bake("--cells", "some", status=2))
 
     def test_a_check_lists_parts_and_animations(self):
@@ -151,7 +151,7 @@ class BakeCells(unittest.TestCase):
         scan = json.loads(done.stdout)["scans"][0]
         self.assertEqual((scan["parts"], scan["animations"]), (["chest", "lid"], ["open"]))
 
-    def test_artifact_toml_says_what_moves_the_parts(self):
+    def test_reads_behaviours_from_artifact_toml(self):
         lines = ['scan = "chest.gltf"', "[[texts]]", 'language = "en"', 'title = "Chest"',
                  "[[behaviours]]", 'name = "turn the lid"', 'animation = "open"', 'trigger = "arrival"', 'titles = { en = "Turn the lid" }',
                  "[[behaviours]]", 'name = "spring"', 'cell = "lid"', "spring = { axis = [0, 0, 2], reach_mm = 50, stiffness = 50, damping = 5 }",
@@ -178,7 +178,7 @@ class BakeCells(unittest.TestCase):
             self.assertEqual(said.count("\n"), 1)
 
 
-    def test_titles_are_set_in_each_language_for_the_behaviours_that_the_pack_has(self):
+    def test_typesets_titles_of_behaviours_in_each_language(self):
         titles = {"en": "Turn the lid", "ar": "أدر الغطاء", "th": "หมุนฝา", "de": "Den Deckel drehen"}
         flat = gltf()  # a part of no height, whose light nobody would see
         flat["nodes"].append({"name": "flat", "mesh": 1, "scale": [1, 0, 1]})

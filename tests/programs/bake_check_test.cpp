@@ -54,7 +54,7 @@ protected:
     }
 };
 
-TEST_F(BakeCheck, SaysOfOneScanWhatItHasInLines) {
+TEST_F(BakeCheck, PrintsTheContentsOfOneScan) {
     const std::set<std::string> before = files();
     ASSERT_EQ(check("scans/box.obj"), 0) << text("err.txt");
     const std::string said = text("out.txt");
@@ -70,7 +70,7 @@ TEST_F(BakeCheck, SaysOfOneScanWhatItHasInLines) {
     EXPECT_EQ(files(), before) << "nothing is written";
 }
 
-TEST_F(BakeCheck, TheSummaryAndTheLossesAreThoseOfTheBake) {
+TEST_F(BakeCheck, SummaryAndLossesMatchTheBake) {
     put("scans/bare.obj", "mtllib nowhere.mtl\nwhatever 3\nl 1 2\n" + text("scans/box.obj"));
     put_jug("jug", "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\ndescription = \"A jug.\"\n"
                    "[[hotspots]]\npoint = [0.33, 0.33, 0.34]\nlabels = { de = \"Henkel\" }\n");
@@ -96,7 +96,7 @@ TEST_F(BakeCheck, TheSummaryAndTheLossesAreThoseOfTheBake) {
     EXPECT_GE(losses, 5U);
 }
 
-TEST_F(BakeCheck, AFolderMakesATableWithAlignedColumnsAndAFaultIsALineOfItsScan) {
+TEST_F(BakeCheck, PrintsAnAlignedTableOfAFolderWithErrorsInline) {
     put("scans/cut.stl", std::string(90, 'x'));
     put("scans/a long name with blanks and \xC3\xBC.obj",
         "v 0 0 0\nv 1.5 0 0\nv 0 0 1\nv 0 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");

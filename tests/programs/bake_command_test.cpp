@@ -63,7 +63,7 @@ TEST_F(BakeCommand, WritesAPackAndReplacesAPack) {
     }
 }
 
-TEST_F(BakeCommand, AKilledBakeLeavesAWholePackAndTheNextOneClearsUp) {
+TEST_F(BakeCommand, KilledBakeKeepsTheOldPackAndTheNextOneCleansUp) {
     ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
     for (const char* seconds : {"0.02", "0.1", "0.2", "0.3", "0.5"}) {
         const std::string command = fmt::format("cd '{}' && timeout -s KILL {} '{}'/frustumscreen-bake "
@@ -79,7 +79,7 @@ TEST_F(BakeCommand, AKilledBakeLeavesAWholePackAndTheNextOneClearsUp) {
     }
 }
 
-TEST_F(BakeCommand, SaysWhatItMadeOnOneScreen) {
+TEST_F(BakeCommand, ReportsItsResultOnOneScreen) {
     ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
     EXPECT_EQ(text("err.txt"), "");
     const std::string said = text("out.txt");
@@ -90,7 +90,7 @@ TEST_F(BakeCommand, SaysWhatItMadeOnOneScreen) {
     EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 24) << said;
 }
 
-TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
+TEST_F(BakeCommand, JsonReportMatchesThePack) {
     ASSERT_EQ(bake_to("scan.fspack", "--json --up z --turn 30 --scale 0.5 --lift 0.25"), 0)
         << text("err.txt");
     const nlohmann::json report = nlohmann::json::parse(text("out.txt"));
@@ -120,7 +120,7 @@ TEST_F(BakeCommand, TheReportForProgramsAgreesWithThePack) {
                 2.0 * placement.metres_per_box, 1e-12);
 }
 
-TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {
+TEST_F(BakeCommand, ReportsLossesOrRefusesThemWithStrict) {
     fs::remove(folder / "scan.mtl");
     ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
     EXPECT_NE(text("err.txt").find("scan.obj: lost: the colours: it names \"scan.mtl\""), std::string::npos);
@@ -134,7 +134,7 @@ TEST_F(BakeCommand, WhatIsLostIsSaidOrRefused) {
     EXPECT_EQ(bake_to("skin.png", "--force --texture skin.png"), 1) << "the picture is an input";
 }
 
-TEST_F(BakeCommand, WhatTheFileSaysOfItselfIsTakenOverAndTold) {
+TEST_F(BakeCommand, TakesTitleAuthorAndLicenceFromTheFileAndReportsThem) {
     put("scan.mtl",
         "# Title: Small jar\n# Author: Ann\n# License: CC-BY-4.0\nnewmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
     ASSERT_EQ(bake_to("Jar of Ann.fspack", "--json"), 0) << text("err.txt");
@@ -162,7 +162,7 @@ TEST_F(BakeCommand, WhatTheFileSaysOfItselfIsTakenOverAndTold) {
     EXPECT_NE(text("out.txt").find("taken   the id \"jar\" from the pack's name"), std::string::npos);
 }
 
-TEST_F(BakeCommand, WhatAPackShouldSayIsMissedAtTheBakeAndWhenItIsSigned) {
+TEST_F(BakeCommand, BakeAndSignReportMissingLicenceAndAuthor) {
     ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("missing the licence:"), std::string::npos) << text("out.txt");
     ASSERT_EQ(run("frustumscreen-pack keygen -o key < /dev/null"), 0) << text("err.txt");
@@ -177,7 +177,7 @@ TEST_F(BakeCommand, WhatAPackShouldSayIsMissedAtTheBakeAndWhenItIsSigned) {
     EXPECT_EQ(text("out.txt").find("missing"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(BakeCommand, AnIdOfTheNameIsTheSameForTheSameNameAndAnotherForAnother) {
+TEST_F(BakeCommand, DerivesAUniqueAndStableIdFromTheName) {
     const auto id_of = [&](const std::string& name) {
         EXPECT_EQ(bake_to(name), 0) << text("err.txt");
         const Result<pack::VerifiedPack> pack = pack::load_pack(folder / name);
@@ -191,7 +191,7 @@ TEST_F(BakeCommand, AnIdOfTheNameIsTheSameForTheSameNameAndAnotherForAnother) {
     EXPECT_TRUE(others.contains(id_of("löwe.fspack"))) << "again the same";
 }
 
-TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
+TEST_F(BakeCommand, TypesetsAFoldersTextsAndSpeaksItsDescription) {
     fs::create_directories(folder / "vase");
     for (const char* file : {"scan.obj", "scan.mtl", "skin.png", "shine.png"}) {
         fs::copy_file(folder / file, folder / "vase" / file);
@@ -222,7 +222,7 @@ TEST_F(BakeCommand, AFoldersTextsAreSetAndItsDescriptionIsSpoken) {
               std::string::npos);
 }
 
-TEST_F(BakeCommand, ATextThatCannotBeSetIsSaidOrRefused) {
+TEST_F(BakeCommand, ReportsTextThatCannotBeTypesetOrRefusesItWithStrict) {
     const std::string caption = " --language en --caption 'en=A vase \xf0\x9f\x98\x80.'";
     ASSERT_EQ(bake_to("scan.fspack", caption), 0) << text("err.txt");
     EXPECT_NE(text("err.txt").find("lost: texts in 'en': text: the letter"), std::string::npos)
@@ -233,7 +233,7 @@ TEST_F(BakeCommand, ATextThatCannotBeSetIsSaidOrRefused) {
     EXPECT_FALSE(fs::exists(folder / "strict.fspack"));
 }
 
-TEST_F(BakeCommand, ClearsAwayWhatAKilledRunLeft) {
+TEST_F(BakeCommand, RemovesThePartFileOfAKilledRun) {
     const pid_t child = ::fork();
     if (child == 0) {
         ::_exit(0);
@@ -245,7 +245,7 @@ TEST_F(BakeCommand, ClearsAwayWhatAKilledRunLeft) {
     EXPECT_FALSE(fs::exists(folder / left));
 }
 
-TEST_F(BakeCommand, KeepsARelief) {
+TEST_F(BakeCommand, StoresAReliefUnlessToldNotTo) {
     ASSERT_EQ(bake_to("with.fspack"), 0) << text("err.txt");
     ASSERT_EQ(bake_to("without.fspack", "--no-relief"), 0) << text("err.txt");
     for (const std::string name : {"with", "without"}) {
@@ -304,7 +304,7 @@ TEST_F(BakeCommand, ReplacesAnotherFileOnlyByForce) {
     EXPECT_TRUE(pack::load_pack(folder / "notes.txt"));
 }
 
-TEST_F(BakeCommand, LooksAtTheOutputBeforeTheWork) {
+TEST_F(BakeCommand, ChecksTheOutputBeforeTheWork) {
     put("scan.obj", "no model at all"); // errors of the output are reported before it is read
     fs::create_directory(folder / "folder");
     refused("nowhere/scan.fspack", "there is no folder nowhere; make it first");
@@ -312,7 +312,7 @@ TEST_F(BakeCommand, LooksAtTheOutputBeforeTheWork) {
     refused("/proc/scan.fspack", "/proc: nothing can be written into this folder");
 }
 
-TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
+TEST_F(BakeCommand, RejectsDuplicateAndUnknownLanguagesAndCaptions) {
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"--caption 'en=A cat.' --caption 'en=A dog.'",
          "--caption 'en=A dog.': there is a caption in en already; write one for each language"},
@@ -341,7 +341,7 @@ TEST_F(BakeCommand, TakesEachLanguageAndCaptionOnce) {
     EXPECT_EQ((*pack)->captions[1].text, "Eine Katze=Kater.");
 }
 
-TEST_F(BakeCommand, TakesAFolder) {
+TEST_F(BakeCommand, BakesAFolder) {
     ASSERT_EQ(run("frustumscreen-bake scan.obj --new vase"), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("vase/artifact.toml: edit it"), std::string::npos) << text("out.txt");
     EXPECT_EQ(text("vase/skin.png"), text("skin.png")) << "what the scan names comes along";
@@ -398,7 +398,7 @@ labels = { en = "Side" }
     EXPECT_EQ(std::max((*pack)->table_picture.width, (*pack)->table_picture.height), 256);
 }
 
-TEST_F(BakeCommand, OptionsStandAboveTheFolder) {
+TEST_F(BakeCommand, OptionsOverrideTheFolder) {
     fs::create_directory(folder / "vase");
     for (const char* file : {"scan.obj", "scan.mtl", "skin.png"}) {
         fs::copy_file(folder / file, folder / "vase" / file);
@@ -431,7 +431,7 @@ TEST_F(BakeCommand, OptionsStandAboveTheFolder) {
     EXPECT_FALSE(fs::exists(folder / "b.fspack"));
 }
 
-TEST_F(BakeCommand, ThePictureForTheTableIsCutOut) {
+TEST_F(BakeCommand, TablePictureHasATransparentBackground) {
     ASSERT_EQ(bake_to("scan.fspack"), 0) << text("err.txt");
     ASSERT_EQ(run("frustumscreen-pack preview scan.fspack --table -o table.png"), 0) << text("err.txt");
     const Result<Bytes> file = read_file(folder / "table.png");
@@ -444,7 +444,7 @@ TEST_F(BakeCommand, ThePictureForTheTableIsCutOut) {
 }
 
 /// A file system of one megabyte; skipped if the test may not make one.
-TEST_F(BakeCommand, LooksForRoomBeforeTheWork) {
+TEST_F(BakeCommand, ChecksFreeSpaceBeforeTheWork) {
     fs::create_directory(folder / "small");
     const std::string program = fmt::format("'{}'/frustumscreen-bake", bin_dir());
     const int status = std::system(

@@ -34,7 +34,7 @@ protected:
 constexpr const char* english_and_german =
     "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n[[texts]]\nlanguage = \"de\"\ntitle = \"Krug\"\n";
 
-TEST_F(BakeFolder, WrongUseIsToldInOneLineWithWhatToDo) {
+TEST_F(BakeFolder, ReportsWrongUseInOneLineWithAdvice) {
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"jug", "-o NAME.fspack, the pack to write, is required"},
         {"--new jug2", "the scan, after the folder of --new, is required"},
@@ -52,7 +52,7 @@ TEST_F(BakeFolder, WrongUseIsToldInOneLineWithWhatToDo) {
     EXPECT_FALSE(fs::exists(folder / "jug.fspack"));
 }
 
-TEST_F(BakeFolder, ARecordingIsHeardInAFolderOfAnyCase) {
+TEST_F(BakeFolder, FindsARecordingInAFolderOfAnyCase) {
     fs::create_directories(folder / "jug/Recordings/EN");
     ASSERT_TRUE(
         write_file(folder / "jug/Recordings/EN/description.wav", testing::wav16(testing::sine(0.5, 1.0))));
@@ -62,7 +62,7 @@ TEST_F(BakeFolder, ARecordingIsHeardInAFolderOfAnyCase) {
     EXPECT_EQ(text("err.txt"), "");
 }
 
-TEST_F(BakeFolder, AFileThatNothingNamesIsHintedAtAndNotLost) {
+TEST_F(BakeFolder, HintsAtAnUnusedFileWithoutALoss) {
     put("jug/jug.txt", "notes of the curator");
     const std::string lines = "[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n";
     ASSERT_EQ(bake(lines, "--speech none --strict"), 0) << text("err.txt");
@@ -73,7 +73,7 @@ TEST_F(BakeFolder, AFileThatNothingNamesIsHintedAtAndNotLost) {
     EXPECT_EQ(text("out.txt").find("is not used"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
+TEST_F(BakeFolder, ReportsLabelsAndTextsOfDifferentLanguages) {
     const std::string lines =
         std::string(english_and_german) +
         "[[hotspots]]\npoint = [0.0, 0.2, 0.2]\nlabels = { en = \"Side\", fr = \"Flanc\" }\n";
@@ -92,7 +92,7 @@ TEST_F(BakeFolder, LabelsAndTextsAreOfTheSameLanguages) {
         << "German is left out on purpose: " << text("err.txt");
 }
 
-TEST_F(BakeFolder, APointOffTheSurfaceIsToldBeforeAnythingIsSpoken) {
+TEST_F(BakeFolder, ReportsAPointOffTheSurfaceBeforeSynthesizingSpeech) {
     const std::string lines = "[[texts]]\nlanguage = \"en\"\ndescription = \"A jug.\"\n"
                               "[[hotspots]]\npoint = [0, 1200, 0]\nlabels = { en = \"Side\" }\n";
     EXPECT_EQ(bake(lines, "--turn 0 --speech false"), 1);
@@ -104,7 +104,7 @@ TEST_F(BakeFolder, APointOffTheSurfaceIsToldBeforeAnythingIsSpoken) {
     EXPECT_TRUE(said("which is 25.0 % of the artifact's size away"));
 }
 
-TEST_F(BakeFolder, TheArtifactFileStandsForItsFolder) {
+TEST_F(BakeFolder, AcceptsTheArtifactFileInPlaceOfItsFolder) {
     ASSERT_EQ(bake("[[texts]]\nlanguage = \"en\"\ntitle = \"Jug\"\n"), 0) << text("err.txt");
     ASSERT_EQ(run("frustumscreen-bake jug/artifact.toml -o again.fspack --speech none"), 0)
         << text("err.txt");

@@ -46,7 +46,7 @@ protected:
     }
 };
 
-TEST_F(BakePreview, HasPicturesTextsSoundErrorsAndABrowserShowsThem) {
+TEST_F(BakePreview, PageShowsPicturesTextsSoundAndErrorsInABrowser) {
     ASSERT_EQ(run("frustumscreen-bake jug -o jug.fspack --preview jug.html --while-watched --speech none"), 0)
         << text("err.txt");
     // The turn, the table's picture, two captions, a portion, the attribution in both languages, a label.
@@ -65,7 +65,7 @@ TEST_F(BakePreview, HasPicturesTextsSoundErrorsAndABrowserShowsThem) {
     EXPECT_EQ(root.find("data-blocked"), std::string::npos) << root;
 }
 
-TEST_F(BakePreview, NoFileOfSomebodyElseIsReplaced) {
+TEST_F(BakePreview, NeverReplacesAForeignFile) {
     put("jug.html", "a letter");
     EXPECT_EQ(run("frustumscreen-bake jug -o jug.fspack --preview jug.html --speech none"), 1);
     EXPECT_TRUE(test::tells(text("err.txt"),
@@ -78,7 +78,7 @@ TEST_F(BakePreview, NoFileOfSomebodyElseIsReplaced) {
     EXPECT_FALSE(fs::exists(folder / "jug.fspack")) << "all this is said before the work";
 }
 
-TEST_F(BakePreview, WithoutOpenGlOneSentenceSaysSo) {
+TEST_F(BakePreview, ReportsMissingOpenGlInOneLine) {
     // A loader that is given no driver finds none.
     EXPECT_EQ(
         std::system(
@@ -94,7 +94,7 @@ TEST_F(BakePreview, WithoutOpenGlOneSentenceSaysSo) {
         << text("err.txt");
 }
 
-TEST_F(BakePreview, AWatchedFolderIsDrawnAgainAndKeepsItsPageWhileItIsBroken) {
+TEST_F(BakePreview, WatchRedrawsOnChangeAndKeepsThePageOnErrors) {
     const pid_t watch = start("frustumscreen-bake --watch jug --preview jug.html --speech none --size 16");
     ASSERT_TRUE(comes_true([&] { return count("log.txt", "jug.html: new after ") == 1; })) << text("log.txt");
     const std::string first = text("jug.html");
@@ -115,7 +115,7 @@ TEST_F(BakePreview, AWatchedFolderIsDrawnAgainAndKeepsItsPageWhileItIsBroken) {
     EXPECT_EQ(count("log.txt", "\n"), 4U) << text("log.txt");
 }
 
-TEST_F(BakePreview, WhatCannotBeWatchedIsSaid) {
+TEST_F(BakePreview, ReportsFoldersThatCannotBeWatched) {
     EXPECT_EQ(run("frustumscreen-bake --watch nowhere"), 1);
     EXPECT_EQ(count("err.txt", "nowhere: this is not a folder"), 1U) << text("err.txt");
     fs::remove(folder / "jug/artifact.toml");

@@ -82,7 +82,7 @@ behaviour = "open"
 titles = { en = "Opened" }
 )";
 
-TEST_F(BakeStates, are_in_the_pack_by_their_cells_behaviours_and_layers) {
+TEST_F(BakeStates, pack_contains_states_with_cells_behaviours_and_layers) {
     put_file(three_states);
     ASSERT_EQ(run("frustumscreen-bake pot -o pot.fspack --speech none"), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("state   broken: without lid, in dirt.png"), std::string::npos)
@@ -138,13 +138,13 @@ TEST_F(BakeStates, are_in_the_pack_by_their_cells_behaviours_and_layers) {
     EXPECT_EQ(told[0].at("titles").at("en"), "As found");
 }
 
-TEST_F(BakeStates, are_told_by_a_check) {
+TEST_F(BakeStates, check_lists_states) {
     put_file(three_states);
     ASSERT_EQ(run("frustumscreen-bake --check pot"), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("opened: at the end of open"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(BakeStates, that_cannot_be_are_told_in_one_line) {
+TEST_F(BakeStates, reports_invalid_states_in_one_line) {
     const std::string good = "name = \"a\"\ntitles = { en = \"A\" }\n";
     for (const auto& [lines, word] : std::vector<std::pair<std::string, std::string>>{
              {good + "hide = [\"handle\"]\n", "no part 'handle' to hide; it has body, lid, knob"},
@@ -159,7 +159,7 @@ TEST_F(BakeStates, that_cannot_be_are_told_in_one_line) {
     EXPECT_NE(text("err.txt").find("open"), std::string::npos) << text("err.txt");
 }
 
-TEST_F(BakeStates, without_them_a_pack_has_no_such_section) {
+TEST_F(BakeStates, pack_without_states_has_no_states_section) {
     put_file("");
     ASSERT_EQ(run("frustumscreen-bake pot -o pot.fspack --speech none"), 0) << text("err.txt");
     const pack::VerifiedPack pack = pack::load_pack(folder / "pot.fspack").value();

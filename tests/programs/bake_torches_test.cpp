@@ -55,7 +55,7 @@ film = "frames"
 rate_hz = 5
 )";
 
-TEST_F(BakeTorches, what_a_torch_shows_is_in_the_pack) {
+TEST_F(BakeTorches, pack_contains_torch_contents) {
     put_torch(three);
     ASSERT_EQ(run("frustumscreen-bake jug -o jug.fspack --speech none"), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("torch   'marks': picture marks.png, 40 x 20 pixels, 1 kB; light"),
@@ -85,7 +85,7 @@ TEST_F(BakeTorches, what_a_torch_shows_is_in_the_pack) {
     EXPECT_NE(text("out.txt").find("\"rate_hz\": 5.0"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(BakeTorches, the_check_tells_what_a_torch_shows) {
+TEST_F(BakeTorches, check_lists_torch_contents) {
     put_torch(three);
     ASSERT_EQ(run("frustumscreen-bake --check jug"), 0) << text("err.txt");
     EXPECT_NE(
@@ -94,7 +94,7 @@ TEST_F(BakeTorches, the_check_tells_what_a_torch_shows) {
         << text("out.txt");
 }
 
-TEST_F(BakeTorches, a_model_of_the_same_surface_is_a_layer) {
+TEST_F(BakeTorches, accepts_a_model_of_the_same_surface_as_a_layer) {
     put("jug/first.obj", "mtllib first.mtl\n" + std::string(jug).substr(std::string(jug).find("v 0")));
     put("jug/first.mtl", "newmtl clay\nmap_Kd first.png\n");
     put_torch("[[torch]]\nname = \"a\"\nlayer = \"first.obj\"\n");
@@ -111,7 +111,7 @@ TEST_F(BakeTorches, a_model_of_the_same_surface_is_a_layer) {
         << text("err.txt");
 }
 
-TEST_F(BakeTorches, what_a_pack_cannot_hold_is_told) {
+TEST_F(BakeTorches, reports_contents_that_a_pack_cannot_hold) {
     put_picture("jug/wide.png", {64, 32}, {0, 0, 0, 255});
     put_picture("jug/dot.png", {1, 1}, {0, 0, 0, 255});
     put_picture("jug/huge.png", {16384, 128}, {0, 0, 0, 255});

@@ -150,7 +150,7 @@ TEST_F(BehaviourPicture, ShowsAStateAtEveryTimeWhereRaysSeeIt) {
 }
 
 /// A window pins the state: its picture is that of a pack that is so from the beginning.
-TEST_F(BehaviourPicture, PinsTheStateAsTheBehaviourLeavesIt) {
+TEST_F(BehaviourPicture, PinsTheStateAtTheEndOfItsBehaviour) {
     ASSERT_EQ(render("--technique finest --state opened --pin 0.2,-0.1"), 0) << text("err.txt");
     const std::string pinned = text("out/frame_00005.png");
     ASSERT_EQ(render("--technique finest --state opened"), 0) << text("err.txt");
@@ -162,7 +162,7 @@ TEST_F(BehaviourPicture, PinsTheStateAsTheBehaviourLeavesIt) {
     EXPECT_NE(text("out/frame_00005.png"), pinned) << "that window shows the beginning";
 }
 
-TEST_F(BehaviourPicture, RefusesAStateThatThereIsNotInOneLine) {
+TEST_F(BehaviourPicture, RefusesAnUnknownOrEmptyStateInOneLine) {
     for (const auto& [state, words] :
          {std::pair("close", "--state close: the pack has no such state; it has opened, without its lid"),
           std::pair("nothing", "--state nothing: it hides every part")}) {
@@ -182,7 +182,7 @@ TEST_F(BehaviourPicture, ShowsReliefsAndPolygonsWhereRaysSeeThem) {
     }
 }
 
-TEST_F(BehaviourPicture, IsTheWholeArtifactsWithoutTheOption) {
+TEST_F(BehaviourPicture, MatchesTheWholeArtifactWithoutTheOption) {
     put_pack("whole.fspack", whole_chest());
     ASSERT_EQ(render("--technique finest --aov", "whole.fspack"), 0) << text("err.txt");
     const std::string picture = text("out/frame_00003.png");
@@ -207,7 +207,7 @@ TEST_F(BehaviourPicture, RunsInTheExhibitWhenTheArtifactArrives) {
     EXPECT_NE(frames.find(",cells,"), std::string::npos) << frames.substr(frames.size() - 400);
 }
 
-TEST_F(BehaviourPicture, RefusesABehaviourThatThereIsNotInOneLine) {
+TEST_F(BehaviourPicture, RefusesAnUnknownBehaviourInOneLine) {
     const auto refused = [&](const std::string& pack, const std::string& words) {
         EXPECT_EQ(render("--behaviour close", pack), 1);
         const std::string told = text("err.txt");

@@ -143,7 +143,7 @@ behaviour = "jump"
 titles = { en = "Thrown up" }
 )";
 
-TEST_F(Behaviours, EndInAStateThatHasAPicture) {
+TEST_F(Behaviours, StatesHavePicturesOnThePreviewPage) {
     put("box/artifact.toml", text("box/artifact.toml") + box_states);
     ASSERT_EQ(run("frustumscreen-bake box -o box.fspack --preview box.html --while-watched"), 0)
         << text("err.txt");

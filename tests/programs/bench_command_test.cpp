@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(BenchCounts, AFrameThatTakesFourPercentMoreIsNoLossAndSixPercentEndsWithOne) {
+TEST_F(BenchCounts, AcceptsFourPercentGrowthAndFailsAtSixPercent) {
     ASSERT_EQ(count(""), 0) << text("err.txt");
     const auto divide_by = [this](double growth) {
         write_reference([growth](nlohmann::json& counts) {
@@ -48,7 +48,7 @@ TEST_F(BenchCounts, AFrameThatTakesFourPercentMoreIsNoLossAndSixPercentEndsWithO
     EXPECT_NE(text("err.txt").find("takes over 5 % more"), std::string::npos) << text("err.txt");
 }
 
-TEST_F(BenchCounts, AnArtifactThatTheReferenceLacksEndsWithOneAndIsNamed) {
+TEST_F(BenchCounts, FailsAndNamesAnArtifactMissingFromTheReference) {
     ASSERT_EQ(count(""), 0) << text("err.txt");
     write_reference([](nlohmann::json& counts) { counts[0]["artifact"] = "moon.obj, 8 triangles"; });
     EXPECT_EQ(count("--reference reference.json"), 1);
@@ -58,7 +58,7 @@ TEST_F(BenchCounts, AnArtifactThatTheReferenceLacksEndsWithOneAndIsNamed) {
     EXPECT_EQ(count("--reference reference.json"), 1);
 }
 
-TEST_F(BenchCounts, OneCountOfAllThatTakesMoreEndsWithOne) {
+TEST_F(BenchCounts, FailsWhenASingleCountGrows) {
     ASSERT_EQ(count(""), 0) << text("err.txt");
     write_reference(
         [](nlohmann::json& counts) { counts[0]["triangles"] = 0.9 * counts[0]["triangles"].get<double>(); });
@@ -85,7 +85,7 @@ std::map<std::string, std::vector<double>> drawn_by(const std::string& csv) {
 
 class BenchScaling : public ProgramFolder {};
 
-TEST_F(BenchScaling, OneSurfaceInFourTimesTheTrianglesHasAReliefOfAsManyBlocks) {
+TEST_F(BenchScaling, ReliefBlocksDoNotGrowWithTheTrianglesOfOneSurface) {
     ASSERT_EQ(run("frustumscreen-bench scaling --same-surface --triangles 4000 16000 --size 48 --poses 1 "
                   "--no-peers "
                   "--config '" +
@@ -102,7 +102,7 @@ TEST_F(BenchScaling, OneSurfaceInFourTimesTheTrianglesHasAReliefOfAsManyBlocks) 
     EXPECT_NE(text("out.txt").find("finest relief"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(BenchScaling, ABakeOfAScanLeavesItsRowAndNoPack) {
+TEST_F(BenchScaling, BakesModeWritesARowAndLeavesNoPack) {
     write_star();
     ASSERT_EQ(run("frustumscreen-bench scaling --bakes --mesh star.obj --size 48 --out out"), 0)
         << text("err.txt");
@@ -153,7 +153,7 @@ protected:
              "| ladder | 98.56 % | 0.90 % | 0.52 % | 0.019 % | 2 min | 47 | 0 |\n");
 };
 
-TEST_F(BenchReport, ACheckEndsWithOneUntilTheTableIsWritten) {
+TEST_F(BenchReport, CheckFailsUntilTheTableIsWritten) {
     EXPECT_EQ(report("--check"), 1);
     EXPECT_EQ(text("page.md"), page("old\n"));
     EXPECT_EQ(text("out.txt"), "ladder: differs from from/ladder/ladder_policies.csv\n");
@@ -165,7 +165,7 @@ TEST_F(BenchReport, ACheckEndsWithOneUntilTheTableIsWritten) {
     EXPECT_EQ(text("out.txt"), "ladder: is as measured\n");
 }
 
-TEST_F(BenchReport, ABadNumberIsOneLineAndLeavesThePageAsItIs) {
+TEST_F(BenchReport, ReportsAMalformedNumberInOneLineAndKeepsThePage) {
     write_ladder("much");
     EXPECT_EQ(report(), 1);
     const std::string said = text("err.txt");
@@ -176,7 +176,7 @@ TEST_F(BenchReport, ABadNumberIsOneLineAndLeavesThePageAsItIs) {
     EXPECT_EQ(text("page.md"), page("old\n"));
 }
 
-TEST_F(BenchReport, APageOrAFolderThatIsMissingIsNamed) {
+TEST_F(BenchReport, NamesAMissingPageOrFolder) {
     EXPECT_EQ(run("frustumscreen-bench report --from nowhere --page page.md"), 1);
     EXPECT_NE(text("err.txt").find("nowhere"), std::string::npos);
     EXPECT_EQ(run("frustumscreen-bench report --from from --page none.md"), 1);

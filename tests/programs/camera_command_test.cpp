@@ -18,7 +18,7 @@ protected:
     }
 };
 
-TEST_F(CameraCommand, SaysWhetherTheSettingsHaveOne) {
+TEST_F(CameraCommand, ReportsWhetherTheSettingsHaveACamera) {
     settings("");
     EXPECT_EQ(run("frustumscreen camera --config kiosk.toml --is-on"), 1);
     EXPECT_EQ(text("out.txt") + text("err.txt"), "");
@@ -29,7 +29,7 @@ TEST_F(CameraCommand, SaysWhetherTheSettingsHaveOne) {
     EXPECT_EQ(text("out.txt") + text("err.txt"), "");
 }
 
-TEST_F(CameraCommand, ACameraThatIsNotThereIsSaidAndNothingIsWritten) {
+TEST_F(CameraCommand, ReportsAMissingCameraAndWritesNoFile) {
     settings("kind = \"v4l2\"\ndevice = \"/dev/no_such_camera\"\n");
     EXPECT_EQ(run("frustumscreen camera --config kiosk.toml --seconds 0.3"), 1);
     EXPECT_NE(text("out.txt").find("away: no camera is connected"), std::string::npos) << text("out.txt");
@@ -42,7 +42,7 @@ TEST_F(CameraCommand, ACameraThatIsNotThereIsSaidAndNothingIsWritten) {
     EXPECT_EQ(files(), 3U) << "the settings, and what the program said";
 }
 
-TEST_F(CameraCommand, WrongUseIsTwo) {
+TEST_F(CameraCommand, ExitsWithTwoOnWrongUse) {
     settings("");
     EXPECT_EQ(run("frustumscreen camera"), 2);
     EXPECT_EQ(run("frustumscreen camera --config kiosk.toml --is-on --json"), 2);

@@ -89,7 +89,7 @@ TEST_F(ConfigCommand, ExplainsACubeInTheHand) {
     EXPECT_EQ(said.find("evenly"), std::string::npos);
 }
 
-TEST_F(ConfigCommand, SaysOverWhichDepthTheHandsZoneIsSharp) {
+TEST_F(ConfigCommand, ReportsTheSharpDepthOfTheHandsZone) {
     const std::string hand =
         std::string(lens) +
         "position_m = [0, 0, 1.2]\naperture_mm = {}\n[prop]\nkind = \"cube\"\nbase_m = 0.1\n";
@@ -124,7 +124,7 @@ TEST_F(ConfigCommand, SaysWhichFilesAreMissingAndPrintsTheSettings) {
     EXPECT_EQ(nlohmann::json::parse(text("out.txt"), nullptr, false).at("exhibit").at("packs").size(), 2U);
 }
 
-TEST_F(ConfigCommand, RefusesWrongUseAndSettingsThatAreWrong) {
+TEST_F(ConfigCommand, RefusesWrongUseAndInvalidSettings) {
     put("kiosk.toml", "[projector]\ncx = -1280\n");
     EXPECT_EQ(run("frustumscreen config --config kiosk.toml --explain"), 1);
     expect_words(text("err.txt"),
@@ -137,7 +137,7 @@ TEST_F(ConfigCommand, RefusesWrongUseAndSettingsThatAreWrong) {
     EXPECT_EQ(run("frustumscreen config --describe"), 0);
 }
 
-TEST_F(ConfigCommand, JudgesAGoodSetUpAsGood) {
+TEST_F(ConfigCommand, ReportsNoProblemsForTheDefaultSetUp) {
     const std::string said = page("");
     expect_words(said, {"seen whole from all around while the prop is within 44 x 15 cm",
                         "10 mm high, 24 pixels", "a capital is 22 minutes of arc high",

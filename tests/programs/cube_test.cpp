@@ -24,7 +24,7 @@ protected:
     [[nodiscard]] static std::string settings() { return source_dir() + "/config/cube.toml"; }
 };
 
-TEST_F(CubeProgram, ItsPackIsSoundAndMeasuredOnACube) {
+TEST_F(CubeProgram, PackVerifiesAndReportsItsSizeOnTheCube) {
     ASSERT_EQ(run("frustumscreen-pack verify star.fspack"), 0) << text("err.txt");
     ASSERT_EQ(run("frustumscreen-pack explain --json star.fspack"), 0) << text("err.txt");
     const nlohmann::json json = nlohmann::json::parse(text("out.txt"));
@@ -34,7 +34,7 @@ TEST_F(CubeProgram, ItsPackIsSoundAndMeasuredOnACube) {
     EXPECT_NEAR(json.at("artifact_size_m")[2].get<double>(), 0.16, 1e-3);
 }
 
-TEST_F(CubeProgram, UpsideDownItIsDrawnFromBelow) {
+TEST_F(CubeProgram, DrawsTheLowerHalfWhenUpsideDown) {
     // Half a turn about X, with the middle above the table's centre, seen from straight above.
     ASSERT_TRUE(
         write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
@@ -72,7 +72,7 @@ TEST_F(CubeProgram, UpsideDownItIsDrawnFromBelow) {
     EXPECT_GT(highest, 0.02F);
 }
 
-TEST_F(CubeProgram, ErrorTimeHoldsItAgainstTheTruthInSixDegreesOfFreedom) {
+TEST_F(CubeProgram, ErrorTimeWritesARowForEachPose) {
     ASSERT_EQ(
         run(fmt::format(
             "frustumscreen-bench error-time --limits none --config '{}' --pack star.fspack --mesh star.obj "

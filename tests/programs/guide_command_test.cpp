@@ -46,7 +46,7 @@ std::set<std::string> set_of(const Json& names) {
     return names.get<std::set<std::string>>();
 }
 
-TEST_F(GuideCommand, TakesBothEyesInStereo) {
+TEST_F(GuideCommand, CombinesBothEyesInStereo) {
     constexpr double half_m = 0.05; // wide, so that the eyes often differ
     std::vector<std::array<double, 3>> middle;
     for (int k = 0; k < 120; ++k) {

@@ -62,7 +62,7 @@ TEST(OutputRequestOfSettings, TheScreenHasItsOwnConnectorSizeRateAndLayout) {
     EXPECT_TRUE((*projector)->make_current());
 }
 
-TEST(OutputRequestOfSettings, AProjectorsOwnLayoutGoesBeforeThatOfTheEyes) {
+TEST(OutputRequestOfSettings, ProjectorStereoOverridesEyeStereo) {
     settings::Settings settings = settings_with(settings::Stereo::SideBySide);
     settings.projector.stereo = settings::OutputStereo::TopBottom;
     EXPECT_EQ(output_request(settings).eyes, display::EyeLayout::TopBottom);

@@ -162,7 +162,7 @@ protected:
         display::SurfacelessDisplay::create(320, 200).value();
 };
 
-TEST_F(PlanAgainstShow, AMinimalScene) {
+TEST_F(PlanAgainstShow, MatchesForAMinimalScene) {
     int lit = 0;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -181,7 +181,7 @@ TEST_F(PlanAgainstShow, AMinimalScene) {
     EXPECT_EQ(lit, 12);
 }
 
-TEST_F(PlanAgainstShow, AnOrdinaryScene) {
+TEST_F(PlanAgainstShow, MatchesForAnOrdinaryScene) {
     configure(ordinary);
     const auto lean = show(scene::AllCullKinds);
     const scene::ScenePlan& plan = lean->plan(0);
@@ -197,7 +197,7 @@ TEST_F(PlanAgainstShow, AnOrdinaryScene) {
     EXPECT_GT(expect_same_pictures(*lean, *everything, 30), 25);
 }
 
-TEST_F(PlanAgainstShow, EachCullKindByItself) {
+TEST_F(PlanAgainstShow, MatchesForEachCullKindAlone) {
     configure(ordinary);
     const auto everything = show(0);
     for (unsigned cull_kind = 1; cull_kind < scene::AllCullKinds; cull_kind <<= 1U) {
@@ -208,7 +208,7 @@ TEST_F(PlanAgainstShow, EachCullKindByItself) {
     }
 }
 
-TEST_F(PlanAgainstShow, AFullScene) {
+TEST_F(PlanAgainstShow, MatchesForAFullScene) {
     configure(full);
     const auto lean = show(scene::AllCullKinds);
     EXPECT_EQ(lean->plan(0).levels, (std::vector<std::uint32_t>{3U, 2U, 1U, 0U}));
@@ -223,7 +223,7 @@ TEST_F(PlanAgainstShow, AFullScene) {
     EXPECT_GT(expect_same_pictures(*lean, *everything, 30), 20);
 }
 
-TEST_F(PlanAgainstShow, AFixedSceneOfFineTexelsLeavesOutTheirFinestMipLevels) {
+TEST_F(PlanAgainstShow, FixedSceneLeavesOutTheFinestMipLevels) {
     pack::Pack fine = full_pack();
     image::Image8 texture(2048, 1536);
     for (std::size_t k = 0; k < texture.texels.size(); ++k) {

@@ -88,7 +88,7 @@ protected:
     }
 };
 
-TEST_F(RecordCommand, WritesWhatTheTrackerGaveAsAPoseFile) {
+TEST_F(RecordCommand, WritesTheTrackersPosesAsAPoseFile) {
     settings("kind = \"simulated\"\n");
     ASSERT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.3 -o poses.csv"), 0)
         << text("err.txt");
@@ -96,7 +96,7 @@ TEST_F(RecordCommand, WritesWhatTheTrackerGaveAsAPoseFile) {
     EXPECT_NE(text("out.txt").find("poses.csv: "), std::string::npos);
 }
 
-TEST_F(RecordCommand, ARecordingPlaysInPlaceOfTheDeviceAndIsPlacedOnTheTable) {
+TEST_F(RecordCommand, ReplaysARecordingInTableCoordinates) {
     ASSERT_TRUE(write_file(folder / "fault.rec", recording()));
     settings("kind = \"replay\"\nposes = \"fault.rec\"\nreplay_speed = 10.0\n"
              "table_from_tracker = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0.25,0,0.125,1]\n");
@@ -114,7 +114,7 @@ TEST_F(RecordCommand, ARecordingPlaysInPlaceOfTheDeviceAndIsPlacedOnTheTable) {
     EXPECT_NE(text("poses.csv").find("# table_from_tracker = [1, 0, 0, 0, 0, -1"), std::string::npos);
 }
 
-TEST_F(RecordCommand, ARecordingIsConvertedUpToItsCut) {
+TEST_F(RecordCommand, ConvertsATruncatedRecordingUpToItsCut) {
     const Bytes whole = recording();
     const std::span<const std::byte> cut(whole.data(), whole.size() - 1);
     ASSERT_TRUE(write_file(folder / "fault.rec", cut));
@@ -127,7 +127,7 @@ TEST_F(RecordCommand, ARecordingIsConvertedUpToItsCut) {
     EXPECT_NE(text("out.txt").find("53 bytes behind a cut"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(RecordCommand, ARecordingIsNeverReplacedByWhatIsMadeOfIt) {
+TEST_F(RecordCommand, NeverReplacesItsInputRecording) {
     const Bytes whole = recording();
     ASSERT_TRUE(write_file(folder / "fault.rec", whole));
     settings("kind = \"replay\"\nposes = \"fault.rec\"\n");
@@ -141,7 +141,7 @@ TEST_F(RecordCommand, ARecordingIsNeverReplacedByWhatIsMadeOfIt) {
     }
 }
 
-TEST_F(RecordCommand, WhatHasNoPacketsIsRefusedInPlainWords) {
+TEST_F(RecordCommand, RefusesToRecordATrackerWithoutPackets) {
     settings("kind = \"simulated\"\n");
     for (const std::string command :
          {"record --seconds 1 --raw -o raw", "run --headless --seconds 1 --pattern --record raw"}) {
@@ -152,7 +152,7 @@ TEST_F(RecordCommand, WhatHasNoPacketsIsRefusedInPlainWords) {
     EXPECT_FALSE(fs::exists(folder / "raw"));
 }
 
-TEST_F(RecordCommand, WithoutADeviceThePacketsAreStillARecordingThatSaysSo) {
+TEST_F(RecordCommand, WritesAValidPacketFileWithoutADevice) {
     settings("kind = \"spacemouse\"\n");
     ASSERT_EQ(run("frustumscreen record --config kiosk.toml --seconds 0.3 --raw -o raw"), 0)
         << text("err.txt");
@@ -163,7 +163,7 @@ TEST_F(RecordCommand, WithoutADeviceThePacketsAreStillARecordingThatSaysSo) {
     EXPECT_FALSE(fs::exists(folder / "none.csv"));
 }
 
-TEST_F(RecordCommand, ADeviceThatHangsDoesNotKeepItFromStoppingAndNothingIsLost) {
+TEST_F(RecordCommand, StopsWithoutLossWhileTheDeviceHangs) {
     settings("kind = \"usb\"\n");
     const std::optional<int> status = stopped_while_the_device_hangs({"--raw", "-o", "raw"});
     if (!status) {

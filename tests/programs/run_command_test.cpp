@@ -30,7 +30,7 @@ protected:
     }
 };
 
-TEST_F(RunCommand, PlanSaysWhatIsInWhatIsOutAndWhatThatSaves) {
+TEST_F(RunCommand, PlanListsContentsOmissionsAndSavings) {
     const auto say = [&](const std::string& more) {
         return shell(fmt::format("'{}/frustumscreen' plan --config kiosk.toml --pack rings.fspack {} "
                                  ">plan.txt 2>err.txt",
@@ -75,7 +75,7 @@ TEST_F(RunCommand, AtRestPresentsOneProbeASecondAndDrawsNothing) {
     EXPECT_EQ(longer.at("drawn").get<int>() + longer.at("unchanged").get<int>(), 300);
 }
 
-TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
+TEST_F(RunCommand, ReportsLevelErrorsAndFrameTimes) {
     const auto begin = std::chrono::steady_clock::now();
     const nlohmann::json status = run("--seconds 2 --out pictures --stills 2 --status-file status.json");
     const double wall_ms =
@@ -105,14 +105,14 @@ TEST_F(RunCommand, ReportsWhatIsDrawnAtWhichCost) {
     EXPECT_EQ(run("--seconds 1 --technique level0").at("technique"), "level0");
 }
 
-TEST_F(RunCommand, AShortRunLeavesItsLastPictureAndAFolderThatIsNotThereIsSaid) {
+TEST_F(RunCommand, WritesAStillOfAShortRunAndNamesAMissingStatusFolder) {
     run("--seconds 0.1 --out pictures --stills 1");
     EXPECT_TRUE(std::filesystem::exists(folder / "pictures/frame_00000.png"));
     EXPECT_EQ(exit_status("--seconds 1 --status-file nowhere/status.json"), 1);
     EXPECT_NE(text("err.txt").find("nowhere: the folder of --status-file"), std::string::npos);
 }
 
-TEST_F(RunCommand, SaysWhereNoDeviceIsAsked) {
+TEST_F(RunCommand, ReportsThatNoTrackerOrPanelIsUsed) {
     const nlohmann::json replayed = run("--seconds 1");
     EXPECT_EQ(replayed.at("tracker"), "poses come from a file; no tracker is used");
     EXPECT_EQ(replayed.at("panel"), ""); // there is no panel

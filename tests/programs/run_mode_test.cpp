@@ -31,7 +31,7 @@ protected:
     }
 };
 
-TEST_F(RunMode, WithoutAFileOrWithAnUnknownWordItIsNormal) {
+TEST_F(RunMode, DefaultsToNormalWithoutAFileOrForAnUnknownMode) {
     EXPECT_EQ(status().at("mode"), "normal");
     EXPECT_EQ(text("err.txt").find("mode"), std::string::npos) << text("err.txt");
     put("mode", "sideways\n");
@@ -79,7 +79,7 @@ TEST_F(RunMode, PlainDrawingShowsThePacksOfTheSettings) {
         << "no compiled shader is taken or kept";
 }
 
-TEST_F(RunMode, WrongSettingsEndTheProgramInTheNormalModeAlone) {
+TEST_F(RunMode, FallsBackToOtherSettingsExceptInNormalMode) {
     const std::string good = text("kiosk.toml");
     put("kiosk.toml", "[projector]\nwidth = \"wide\"\n");
     EXPECT_EQ(run(), 1);

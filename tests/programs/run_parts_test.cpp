@@ -31,7 +31,7 @@ const Error no_pack{ErrorKind::BadConfiguration, "test.no_pack", "there is no pa
 const Error no_display{ErrorKind::DeviceLost, "test.no_display", "the display is gone"};
 const Result<show::LoopResult> failed = tl::unexpected<Error>(no_display);
 
-TEST(RunEnd, ARunThatShowsSomethingIsDoneWhenItIsTold) {
+TEST(RunEnd, RunWithAShowEndsAsDone) {
     for (const Nanoseconds length : {Nanoseconds(0), Nanoseconds(minutes(600))}) {
         const RunEnd end = end_of_run(lasted(length), {}, false);
         EXPECT_EQ(end.why, RunEnd::Why::Done);
@@ -39,7 +39,7 @@ TEST(RunEnd, ARunThatShowsSomethingIsDoneWhenItIsTold) {
     }
 }
 
-TEST(RunEnd, AnErrorScreenFailsAfterItsMinuteAndNotBefore) {
+TEST(RunEnd, ErrorScreenFailsAfterAMinute) {
     EXPECT_EQ(end_of_run(lasted(seconds(59)), no_pack, false).why, RunEnd::Why::Done)
         << "it was told to stop";
     for (const Nanoseconds length : {Nanoseconds(seconds(60)), Nanoseconds(seconds(61))}) {
@@ -49,13 +49,13 @@ TEST(RunEnd, AnErrorScreenFailsAfterItsMinuteAndNotBefore) {
     }
 }
 
-TEST(RunEnd, ASetThatWasInstalledEndsTheErrorScreenWell) {
+TEST(RunEnd, InstalledSetEndsTheErrorScreenWithoutFailure) {
     for (const Nanoseconds length : {Nanoseconds(seconds(1)), Nanoseconds(minutes(2))}) {
         EXPECT_EQ(end_of_run(lasted(length), no_pack, true).why, RunEnd::Why::SetInstalled);
     }
 }
 
-TEST(RunEnd, ALoopThatFailedSaysItsOwnError) {
+TEST(RunEnd, FailedLoopReportsItsOwnError) {
     for (const auto& error_screen : {std::optional<Error>(), std::optional(no_pack)}) {
         for (const bool set_came : {false, true}) {
             const RunEnd end = end_of_run(failed, error_screen, set_came);
@@ -97,7 +97,7 @@ protected:
     std::string said;
 };
 
-TEST_F(RunShow, AnErrorScreenSaysItsErrorInTheJournalAndOnTheTable) {
+TEST_F(RunShow, ErrorScreenShowsItsErrorInTheJournalAndOnTheTable) {
     const std::unique_ptr<show::Show> cat = error_screen_for("no cat");
     ASSERT_NE(cat, nullptr);
     EXPECT_NE(said.find("no cat"), std::string::npos) << said;
@@ -120,7 +120,7 @@ TEST_F(RunShow, TheAlignmentPatternNeedsNoPack) {
     EXPECT_NE(picture_of(**show).texels, picture_of(*error_screen_for("no cat")).texels);
 }
 
-TEST_F(RunShow, WithoutAPackThatCanBeShownThereIsAnError) {
+TEST_F(RunShow, FailsAndNamesAMissingPack) {
     RunRequest request;
     request.show.packs = {"no-such.fspack"};
     ::testing::internal::CaptureStderr();
@@ -153,7 +153,7 @@ protected:
     show::LoopResult result;
 };
 
-TEST_F(RunOutput, IsThePicturesTheirPosesAndTheFrames) {
+TEST_F(RunOutput, ContainsPicturesPosesFramesAndSound) {
     const sound::WavSound sound{MonotonicTime{}};
     ASSERT_TRUE(write_output(folder, result, &sound));
     for (std::size_t k = 0; k < 2; ++k) {
@@ -167,12 +167,12 @@ TEST_F(RunOutput, IsThePicturesTheirPosesAndTheFrames) {
     EXPECT_FALSE(fs::exists(folder / simulation::visitor_cameras_name));
 }
 
-TEST_F(RunOutput, OfASilentRunHasNoSound) {
+TEST_F(RunOutput, HasNoSoundFileForASilentRun) {
     ASSERT_TRUE(write_output(folder, result, nullptr));
     EXPECT_FALSE(fs::exists(folder / "sound.wav"));
 }
 
-TEST_F(RunOutput, AFileThatCannotBeWrittenIsNamed) {
+TEST_F(RunOutput, NamesAFileThatCannotBeWritten) {
     const sound::WavSound sound{MonotonicTime{}};
     for (const char* name : {"frame_00001.png", "poses.csv", "frames.csv", "sound.wav"}) {
         fs::create_directories(folder / name / "in the way");
@@ -184,7 +184,7 @@ TEST_F(RunOutput, AFileThatCannotBeWrittenIsNamed) {
     }
 }
 
-TEST_F(RunOutput, IsReportedInAFewWordsOrAsJson) {
+TEST_F(RunOutput, ReportIsTextOrJson) {
     result.status.frames = 1234;
     result.status.frame_ms = {2.0, 3.0, 5.0};
     const auto reported = [this](const RunRequest& request) {

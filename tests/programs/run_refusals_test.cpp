@@ -26,7 +26,7 @@ protected:
 };
 constexpr const char* usual = "--config kiosk.toml --headless --fast --seconds 1 ";
 
-TEST_F(RunRefusals, WrongUseIsTwo) {
+TEST_F(RunRefusals, ExitsWithTwoOnWrongUse) {
     for (const std::string options : {"", "--config", "--no-such-option", "--config kiosk.toml --out out",
                                       "--config kiosk.toml --seconds 0", "--config kiosk.toml --soak 3",
                                       "--config kiosk.toml --technique cat"}) {
@@ -36,17 +36,17 @@ TEST_F(RunRefusals, WrongUseIsTwo) {
     EXPECT_EQ(run("--help"), 0);
 }
 
-TEST_F(RunRefusals, SettingsThatAreNotThereAreNamed) {
+TEST_F(RunRefusals, NamesMissingSettings) {
     EXPECT_EQ(run("--config nowhere.toml --headless --fast --seconds 1"), 1);
     EXPECT_TRUE(says("nowhere.toml")) << said;
 }
 
-TEST_F(RunRefusals, AFolderForPicturesThatCannotBeMadeIsNamed) {
+TEST_F(RunRefusals, NamesAnOutputFolderThatCannotBeCreated) {
     EXPECT_EQ(run(std::string(usual) + "--out kiosk.toml/out"), 1);
     EXPECT_TRUE(says("kiosk.toml/out: the folder cannot be made")) << said;
 }
 
-TEST_F(RunRefusals, APersonIsToldOfAMissingCardAtOnce) {
+TEST_F(RunRefusals, ReportsAMissingCardAtOnceWithoutAService) {
     write_settings("replay", "[display]\nkind = \"kms\"\ncard = \"no-such-card\"\n");
     EXPECT_EQ(run("--config kiosk.toml --seconds 1"), 1);
     EXPECT_TRUE(says("/dev/dri/no-such-card")) << said;
@@ -58,7 +58,7 @@ TEST_F(RunRefusals, ATrackerWithoutPacketsIsNotRecorded) {
     EXPECT_FALSE(std::filesystem::exists(folder / "new.packets"));
 }
 
-TEST_F(RunRefusals, AServiceShowsForAMinuteWhyThereIsNothingToShow) {
+TEST_F(RunRefusals, ServiceShowsTheErrorForAMinuteAndThenFails) {
     std::filesystem::remove(folder / "rings.fspack");
     const std::string options = "--config kiosk.toml --headless --fast --json --seconds ";
     EXPECT_EQ(run(options + "5", true), 0) << "it was told to stop before: " << said;
@@ -67,13 +67,13 @@ TEST_F(RunRefusals, AServiceShowsForAMinuteWhyThereIsNothingToShow) {
     EXPECT_EQ(run(options + "5"), 1) << "a person is told at once";
 }
 
-TEST_F(RunRefusals, AServiceWithoutItsPoseFileEnds) {
+TEST_F(RunRefusals, ServiceFailsWithoutItsPoseFile) {
     std::filesystem::remove(folder / "poses.csv");
     EXPECT_EQ(run(usual, true), 1);
     EXPECT_TRUE(says("tracker.poses")) << said;
 }
 
-TEST_F(RunRefusals, PicturesThatCannotBeWrittenAreNamed) {
+TEST_F(RunRefusals, NamesOutputThatCannotBeWritten) {
     std::filesystem::create_directories(folder / "out/poses.csv/in the way");
     EXPECT_EQ(run(std::string(usual) + "--out out"), 1);
     EXPECT_TRUE(says("out/poses.csv")) << said;

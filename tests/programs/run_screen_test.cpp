@@ -41,7 +41,7 @@ protected:
     }
 };
 
-TEST_F(RunScreen, BothOutputsLeaveTheirPicturesAndTheScreensIsTheOneOfRender) {
+TEST_F(RunScreen, WritesStillsOfBothOutputsAndMatchesRender) {
     const nlohmann::json status = run("");
     const nlohmann::json& shown = status.at("screen_picture");
     EXPECT_EQ(shown.at("health"), "well");
@@ -80,7 +80,7 @@ TEST_F(RunScreen, TheProjectorsPictureIsTheSameWithAScreenBesideIt) {
     EXPECT_FALSE(has("screen_00000.png"));
 }
 
-TEST_F(RunScreen, ARoomThatCannotBeReadLeavesTheProjectorLit) {
+TEST_F(RunScreen, UnreadableRoomLeavesTheProjectorRunning) {
     put("room.toml", "[[object]]\npack = \"missing.fspack\"\n");
     const nlohmann::json status = run("");
     EXPECT_NE(status.at("screen").get<std::string>().find("missing.fspack"), std::string::npos)
@@ -92,7 +92,7 @@ TEST_F(RunScreen, ARoomThatCannotBeReadLeavesTheProjectorLit) {
     EXPECT_GT(status.at("drawn"), 0);
 }
 
-TEST_F(RunScreen, ThePatternHasNoRoom) {
+TEST_F(RunScreen, PatternHasNoScreenPicture) {
     EXPECT_TRUE(run("--pattern").at("screen_picture").is_null());
 }
 

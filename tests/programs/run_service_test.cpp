@@ -142,7 +142,7 @@ protected:
     pid_t process = 0;
 };
 
-TEST_F(RunService, IsReadyWhenAPictureIsOnSaysWhatItShowsFeedsAndStops) {
+TEST_F(RunService, ReportsReadyAndStatusFeedsTheWatchdogAndStops) {
     start();
     ASSERT_TRUE(hears("READY=1")) << errors();
     EXPECT_TRUE(hears("STATUS=poses come from a file; no tracker is used; shows Rings (en, level0)"));
@@ -157,7 +157,7 @@ TEST_F(RunService, IsReadyWhenAPictureIsOnSaysWhatItShowsFeedsAndStops) {
     EXPECT_NE(errors().find("frustumscreen: shows Rings (en, level0)\n"), std::string::npos) << errors();
 }
 
-TEST_F(RunService, ALostTrackerAndALostPanelAreSaidAndFedThrough) {
+TEST_F(RunService, ReportsAMissingPanelAndKeepsFeedingTheWatchdog) {
     start("[panel]\nkind = \"gpio\"\nchip = \"no-such-chip\"\nlines = [\"1\"]\n");
     ASSERT_TRUE(hears("READY=1")) << errors();
     ASSERT_TRUE(
@@ -169,7 +169,7 @@ TEST_F(RunService, ALostTrackerAndALostPanelAreSaidAndFedThrough) {
     EXPECT_EQ(ending(), 0);
 }
 
-TEST_F(RunService, StarvesWhileTheWholeProcessIsStopped) {
+TEST_F(RunService, DoesNotFeedTheWatchdogWhileStopped) {
     start();
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
     ::kill(process, SIGSTOP);
@@ -180,7 +180,7 @@ TEST_F(RunService, StarvesWhileTheWholeProcessIsStopped) {
     EXPECT_EQ(ending(), -SIGKILL);
 }
 
-TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
+TEST_F(RunService, DoesNotFeedTheWatchdogWhileADeviceHangsAndStillStops) {
     start("", "usb");
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
     const std::optional<pid_t> tracker = programs::thread_named(process, "tracker");
@@ -196,7 +196,7 @@ TEST_F(RunService, StarvesWhenADevicesThreadHangsAndStopsAllTheSame) {
     EXPECT_NE(errors().find("a device did not stop in time"), std::string::npos) << errors();
 }
 
-TEST_F(RunService, WaitsForAGraphicsCardWhoseDriverComesLate) {
+TEST_F(RunService, WaitsForAMissingGraphicsCard) {
     start("[display]\nkind = \"kms\"\ncard = \"no-such-card\"\n", "replay", {});
     for (int look = 0; look < 2; ++look) { // it keeps asking for more time
         ASSERT_TRUE(hears("EXTEND_TIMEOUT_USEC=")) << errors();
@@ -229,7 +229,7 @@ TEST_F(RunService, WaitsForACardThatItsUserMayNotOpenYet) {
     EXPECT_EQ(ending(), -SIGTERM);
 }
 
-TEST_F(RunService, ARecordingThatCannotBeMadeIsSaidAndTheExhibitGoesOn) {
+TEST_F(RunService, ReportsAFailedRecordingAndKeepsRunning) {
     start("", "usb",
           {"--headless", "--record", folder / "no-such-folder/fault.packets", "--status-file",
            folder / "status.json"});
@@ -241,7 +241,7 @@ TEST_F(RunService, ARecordingThatCannotBeMadeIsSaidAndTheExhibitGoesOn) {
     EXPECT_EQ(ending(), 0);
 }
 
-TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
+TEST_F(RunService, ReportsAHungRenderThreadAndItsRecovery) {
     start("", "replay", {"--headless", "--status-file", folder / "status.json"});
     ASSERT_TRUE(hears("WATCHDOG=1")) << errors();
     ASSERT_TRUE(comes("status.json", "\"health\": \"well\"")) << text("status.json");
@@ -258,7 +258,7 @@ TEST_F(RunService, ARenderThreadThatHangsIsToldByAnother) {
     EXPECT_EQ(ending(), 0);
 }
 
-TEST_F(RunService, TheStaffSeeThePictureThatIsProjectedAndWhatTheStatusSays) {
+TEST_F(RunService, StaffGetTheProjectedPictureAndTheStatus) {
     const auto run = [this](const std::string& arguments) {
         return shell(fmt::format("'{}/frustumscreen' {} 2>>program.txt", bin_dir(), arguments));
     };
@@ -291,7 +291,7 @@ TEST_F(RunService, TheStaffSeeThePictureThatIsProjectedAndWhatTheStatusSays) {
     EXPECT_NE(text("program.txt").find("no exhibit listens there"), std::string::npos);
 }
 
-TEST_F(RunService, AStaffSocketThatCannotBeMadeEndsNothing) {
+TEST_F(RunService, KeepsRunningWithoutTheStaffSocket) {
     start("", "replay", {"--headless", "--staff-socket", folder / "no-such-folder/staff.sock"});
     ASSERT_TRUE(hears("READY=1")) << errors();
     EXPECT_TRUE(comes("err.txt", "the staff's socket cannot be made: No such file or directory")) << errors();
@@ -300,7 +300,7 @@ TEST_F(RunService, AStaffSocketThatCannotBeMadeEndsNothing) {
     EXPECT_EQ(ending(), 0);
 }
 
-TEST_F(RunService, WithoutAPackShowsWhyAndStops) {
+TEST_F(RunService, ShowsAnErrorWithoutAPackAndStops) {
     fs::remove(folder / "rings.fspack");
     start();
     ASSERT_TRUE(hears("READY=1")) << errors();
@@ -310,7 +310,7 @@ TEST_F(RunService, WithoutAPackShowsWhyAndStops) {
     EXPECT_EQ(ending(), 0);
 }
 
-TEST_F(RunService, WithoutAPackASetThatIsInstalledIsTakenUpAtOnce) {
+TEST_F(RunService, ExitsAtOnceForANewlyInstalledSetWithoutAPack) {
     fs::remove(folder / "rings.fspack");
     fs::create_directory(folder / "library");
     start("library = \"library\"\n");

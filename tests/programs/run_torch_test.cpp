@@ -80,7 +80,7 @@ protected:
     }
 };
 
-TEST_F(RunTorch, LightsWhatItPointsAtWhileItSweepsAndNothingElse) {
+TEST_F(RunTorch, LightsOnlyTheSpotItPointsAtWhileSweeping) {
     put_poses(-0.06, 0.06);
     write_settings("replay", dark_table);
     EXPECT_TRUE(run("without").at("torch").is_null());
@@ -109,7 +109,7 @@ TEST_F(RunTorch, DimsTheArtifactWhileItIsHeld) {
     EXPECT_GT(second.darker, second.artifact / 2);
 }
 
-TEST_F(RunTorch, PointedPastTheObjectItShowsAFaintSpotAlone) {
+TEST_F(RunTorch, ShowsOnlyAFaintSpotWhenPointedPastTheObject) {
     put_poses(0.30, 0.34);
     write_settings("replay", dark_table);
     static_cast<void>(run("without"));
@@ -130,7 +130,7 @@ TEST_F(RunTorch, PointedPastTheObjectItShowsAFaintSpotAlone) {
 }
 
 /// Programs, bytes of GPU memory, devices and threads: what OpenGL and the program themselves say they have.
-TEST_F(RunTorch, WithoutItNothingOfItIsThere) {
+TEST_F(RunTorch, LoadsNothingWithoutATorch) {
     const auto loaded = [&](const std::string& more) {
         write_settings("simulated", more);
         EXPECT_EQ(

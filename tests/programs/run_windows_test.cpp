@@ -115,7 +115,7 @@ TEST_F(RunWindows, APressPinsAWindowOfTheSettingsSizeBesideTheProp) {
     EXPECT_GE(clear, 0.02 - 2.0 * pixel_m);
 }
 
-TEST_F(RunWindows, OnesThatArePinnedOneAfterTheOtherLieSideBySideAndTwoAreThereAtMost) {
+TEST_F(RunWindows, PinsAtMostTwoWindowsWithoutOverlap) {
     put_poses({0.9, 2.1}); // where the prop stays, a press pins a state of the artifact
     write_settings("replay", bare);
     run("without", 5.9);
@@ -136,7 +136,7 @@ TEST_F(RunWindows, OnesThatArePinnedOneAfterTheOtherLieSideBySideAndTwoAreThereA
 }
 
 /// Counts programs, bytes of GPU memory, devices and threads, as OpenGL and the program report them.
-TEST_F(RunWindows, WithoutThemNothingOfThemIsThere) {
+TEST_F(RunWindows, LoadsNothingWithoutWindows) {
     const auto loaded = [&](const std::string& more) {
         write_settings("simulated", more);
         EXPECT_EQ(

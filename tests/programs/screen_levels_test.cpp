@@ -95,7 +95,7 @@ protected:
     }
 };
 
-TEST_F(ScreenLevels, AreAsExactAsThePictureSays) {
+TEST_F(ScreenLevels, ErrorStaysWithinTheReportedError) {
     ASSERT_NO_FATAL_FAILURE(bake());
     put_settings("off");
     const ObjMesh mesh(text("ball.obj"));
@@ -132,7 +132,7 @@ TEST_F(ScreenLevels, AreAsExactAsThePictureSays) {
     EXPECT_GT(coarsest_mm, 0.05); // a level was saved
 }
 
-TEST_F(ScreenLevels, OfBothEyesAreThePicturesOfEach) {
+TEST_F(ScreenLevels, StereoPictureCombinesThePicturesOfEachEye) {
     ASSERT_NO_FATAL_FAILURE(bake());
     put_room(1.5);
     put_settings("anaglyph");

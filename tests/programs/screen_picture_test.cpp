@@ -270,7 +270,7 @@ protected:
     RayScreen screen_ = leaning_screen();
 };
 
-TEST_F(ScreenPicture, ShowsEachEyeWhatItsRaysSee) {
+TEST_F(ScreenPicture, MatchesRaysForEachEye) {
     meshes_.reserve(3);
     ASSERT_NO_FATAL_FAILURE(write_scene());
     Compared sum;

@@ -28,7 +28,7 @@ protected:
     }
 };
 
-TEST_F(ScreenRefusal, WithoutAScreenOrAPackSaysWhichIsMissing) {
+TEST_F(ScreenRefusal, NamesAMissingScreenOrPack) {
     expect_refused("--config plain.toml --output screen",
                    {"--output screen: the settings have no screen; add a table [screen] with its room"});
     expect_refused("--config plain.toml",
@@ -37,7 +37,7 @@ TEST_F(ScreenRefusal, WithoutAScreenOrAPackSaysWhichIsMissing) {
     EXPECT_NE(text("err.txt").find("prop"), std::string::npos);
 }
 
-TEST_F(ScreenRefusal, OfARoomNamesTheFileAndTheLine) {
+TEST_F(ScreenRefusal, NamesTheFileAndLineOfARoomError) {
     expect_refused("--config kiosk.toml --output screen", {"room.toml: there is no such file"});
     put("room.toml", "[[object]]\npack = \"no.fspack\"\n");
     expect_refused("--config kiosk.toml --output screen", {"no.fspack: there is no such file"});

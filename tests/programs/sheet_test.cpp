@@ -39,7 +39,7 @@ protected:
     std::optional<settings::CheckedSettings> settings;
 };
 
-TEST_F(Sheet, FramesComeWithTheirPosesAndTheArtifactOfTheirTime) {
+TEST_F(Sheet, FramesHaveTheirPosesAndArtifacts) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {0.0, -0.5, 0.5});
     ASSERT_TRUE(read) << read.error().message;
     ASSERT_EQ(read->frames.size(), 4U);
@@ -68,7 +68,7 @@ TEST_F(Sheet, FramesThatLookAlikeAreShownOnce) {
     EXPECT_EQ(kept[3].tracked_state.table_from_prop.translation.x, 0.1);
 }
 
-TEST_F(Sheet, WhatIsToldAtARestingPropHasARowOfItsOwn) {
+TEST_F(Sheet, EachNarratedTextOfARestingPropHasItsOwnRow) {
     std::string poses = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
     for (int k = 0; k < 4; ++k) {
         poses += std::to_string(k * 100000) + ",1,0,0,0,1,0,0,0,1\n";
@@ -88,7 +88,7 @@ TEST_F(Sheet, WhatIsToldAtARestingPropHasARowOfItsOwn) {
     EXPECT_EQ(rows[3].label, "Bowl: describe, label.0, de");
 }
 
-TEST_F(Sheet, AFolderWithoutPosesOrWithDamagedTimesIsOneLine) {
+TEST_F(Sheet, RejectsAFolderWithoutPosesOrWithMalformedTimes) {
     put("frames.csv", "t_us,ms\n0,fast\n");
     const Result<FrameFolder> damaged = read_frame_folder(folder, {}, "", {});
     ASSERT_FALSE(damaged);
@@ -102,7 +102,7 @@ TEST_F(Sheet, AFolderWithoutPosesOrWithDamagedTimesIsOneLine) {
     }
 }
 
-TEST_F(Sheet, TheTableLeavesOutTheFirstFrameAndCountsWhatWasNotDrawn) {
+TEST_F(Sheet, TableOmitsTheFirstFrameAndCountsUnchangedOnes) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", {});
     ASSERT_TRUE(read);
     const std::vector<TableLine> lines = table_lines(read->records);
@@ -130,7 +130,7 @@ TEST_F(Sheet, TheContactSheetHoldsEveryFrame) {
     EXPECT_GT(sheet->width, sheet->height);
 }
 
-TEST_F(Sheet, TheWholeTableIsOnTheSheetWhereThatIsAsked) {
+TEST_F(Sheet, ShowsTheWholeTableOnRequest) {
     // A green mark in each corner of the projector's picture, where words and pictures for the choice are shown.
     image::Image8 picture(320, 200, glm::u8vec4(0, 0, 0, 255));
     for (int y = 0; y < picture.height; ++y) {
@@ -213,7 +213,7 @@ TEST_F(Sheet, APictureOfAnotherShapeThanTheProjectorsIsRefused) {
     EXPECT_NE(picture.error().message.find("frame_00001.png"), std::string::npos);
 }
 
-TEST_F(Sheet, TheAnimationLoopsForEverThereAndBack) {
+TEST_F(Sheet, AnimationLoopsForeverForwardsAndBackwards) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
     ASSERT_TRUE(read);
     const Result<Bytes> webp =
@@ -238,7 +238,7 @@ TEST_F(Sheet, TheAnimationLoopsForEverThereAndBack) {
     WebPAnimDecoderDelete(decoder);
 }
 
-TEST_F(Sheet, AClosedAnimationPlaysForwardsAndWithoutLoss) {
+TEST_F(Sheet, ClosedAnimationPlaysForwardsAndIsLossless) {
     const Result<FrameFolder> read = read_frame_folder(folder, {}, "", (*settings)->eye.default_m);
     ASSERT_TRUE(read);
     const Result<Bytes> webp =

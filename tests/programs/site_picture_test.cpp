@@ -222,7 +222,7 @@ TEST_F(SitePicture, ShowsAPartOfTheSiteWhereRaysBehindTheFacesSeeIt) {
 }
 
 /// The ground of the region is the foot of its slope, far below most of its places.
-TEST_F(SitePicture, StandsHalfInTheGroundOnASteepSlope) {
+TEST_F(SitePicture, PlacesTheSurfaceAtHalfThePropsHeightOnASteepSlope) {
     put("town.obj", obj_of(ridge()));
     ASSERT_EQ(bake("--site"), 0) << text("err.txt");
     const std::vector<HalfSpace> prop = planes_of(text_of(prop_file()));
@@ -269,7 +269,7 @@ TEST_F(SitePicture, GoesIntoTheSiteAndBackInTheExhibit) {
     EXPECT_EQ(order, "wrw");
 }
 
-TEST_F(SitePicture, RefusesInOneLine) {
+TEST_F(SitePicture, RefusesInvalidSitesInOneLine) {
     const auto told = [&](int status, const std::string& words) {
         EXPECT_NE(status, 0);
         const std::string line = text("err.txt");

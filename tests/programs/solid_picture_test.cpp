@@ -49,7 +49,7 @@ std::string pose_file() {
 
 class SolidPicture : public ProgramFolder, public testing::WithParamInterface<const char*> {};
 
-TEST_P(SolidPicture, ShowsWhatRaysSee) {
+TEST_P(SolidPicture, MatchesRays) {
     const std::string file = source_dir() + "/config/" + GetParam();
     write_star();
     ASSERT_EQ(run(fmt::format(
@@ -92,7 +92,7 @@ TEST_P(SolidPicture, ShowsWhatRaysSee) {
 
 class SolidProp : public ProgramFolder {};
 
-TEST_F(SolidProp, ThatIsNoneIsRefusedInOneLine) {
+TEST_F(SolidProp, RefusesInvalidPropFilesInOneLine) {
     write_star();
     put("open.obj", "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
     put("tip.obj", "v 0 0 0\nv 90 0 90\nv -45 80 90\nv -45 -80 90\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n");
@@ -109,7 +109,7 @@ TEST_F(SolidProp, ThatIsNoneIsRefusedInOneLine) {
     refused("tip.obj", "none of its faces lies on z = 0");
 }
 
-TEST_F(SolidProp, HasNoSquareFootToMeasureATableWith) {
+TEST_F(SolidProp, CalibrationRefusesAPropWithoutASquareFoot) {
     put("kiosk.toml",
         fmt::format("[prop]\nkind = \"solid\"\nfile = \"{}/config/prop_gem.obj\"\n", source_dir()));
     for (const char* command :

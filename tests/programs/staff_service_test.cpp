@@ -48,7 +48,7 @@ protected:
     std::string said;
 };
 
-TEST_F(StaffService, HandsOutThePictureThatIsPresented) {
+TEST_F(StaffService, ReturnsThePresentedPicture) {
     const auto display = display::SurfacelessDisplay::create(width, height);
     ASSERT_TRUE(display) << display.error().message;
     glBindFramebuffer(GL_FRAMEBUFFER, (*display)->framebuffer());
@@ -80,7 +80,7 @@ TEST_F(StaffService, HandsOutThePictureThatIsPresented) {
     }
 }
 
-TEST_F(StaffService, RefusesEveryOtherQuestionAndNamesTheRightOne) {
+TEST_F(StaffService, RefusesEveryOtherQuestion) {
     const auto socket = opened(path);
     ASSERT_NE(socket, nullptr);
     for (const std::string_view question : {"", "Screenshot", "screenshot ", "reboot", "\x1b[2J"}) {
@@ -92,7 +92,7 @@ TEST_F(StaffService, RefusesEveryOtherQuestionAndNamesTheRightOne) {
     }
 }
 
-TEST_F(StaffService, SaysThatTheExhibitHandsOutNoPicture) {
+TEST_F(StaffService, ReportsThatNoPictureIsPresented) {
     const auto socket = opened(path); // no thread presents a picture
     ASSERT_NE(socket, nullptr);
     for (int k = 0; k < 2; ++k) {
@@ -102,12 +102,12 @@ TEST_F(StaffService, SaysThatTheExhibitHandsOutNoPicture) {
     }
 }
 
-TEST_F(StaffService, WithoutAPathThereIsNone) {
+TEST_F(StaffService, OpensNoSocketWithoutAPath) {
     EXPECT_EQ(opened({}), nullptr);
     EXPECT_EQ(said, "");
 }
 
-TEST_F(StaffService, ASocketThatCannotBeMadeIsSaidAndTheExhibitGoesOn) {
+TEST_F(StaffService, LogsASocketThatCannotBeCreated) {
     std::ofstream(folder / "file") << "kept";
     for (const fs::path& at :
          {folder / "none" / "s", folder / "file", folder, folder / std::string(200, 'x')}) {
@@ -127,7 +127,7 @@ TEST_F(StaffService, AnotherExhibitKeepsItsSocket) {
     EXPECT_NE(opened(path), nullptr) << said;
 }
 
-TEST_F(StaffService, EndsWhileAQuestionWaitsAndLeavesNothing) {
+TEST_F(StaffService, ClosesWithoutLeaksWhileAQuestionIsPending) {
     const std::size_t before = open_descriptors();
     auto socket = opened(path);
     ASSERT_NE(socket, nullptr);

@@ -84,7 +84,7 @@ protected:
     }
 };
 
-TEST_F(StateWindows, FrozenOnesStayLiveOnesMoveAndAStateIsWhatTheBehaviourLeaves) {
+TEST_F(StateWindows, FrozenOnesStayLiveOnesMoveAndStatesMatchTheBehavioursEnd) {
     const std::string pin = "{ at_s = 1.0, button = 6 }", open = "{ at_s = 3.0, button = 5 }";
     const image::Image8 bare = picture("count = 1", "");
     const image::Image8 at_rest = picture("count = 1", pin);
@@ -101,7 +101,7 @@ TEST_F(StateWindows, FrozenOnesStayLiveOnesMoveAndAStateIsWhatTheBehaviourLeaves
 }
 
 /// Rays say of such a window where the light falls (tests/render/window_light_test.cpp).
-TEST_F(StateWindows, AStateIsLitAsThePropWas) {
+TEST_F(StateWindows, KeepTheTorchLightOfThePinnedProp) {
     const std::string pin = "{ at_s = 1.0, button = 6 }", open = "{ at_s = 2.0, button = 5 }";
     const std::string later = "{ at_s = 7.0, button = 6 }";
     const Region window = between(picture("count = 1", ""), picture("count = 1", pin));

@@ -203,12 +203,12 @@ protected:
     }
 };
 
-TEST_P(StereoPicture, ShowsEachEyeWhatItsRaysSee) {
+TEST_P(StereoPicture, MatchesRaysForEachEye) {
     expect_what_rays_see(2);
 }
 
 /// By `ctest -C long -R stereo_picture`.
-TEST_P(StereoPicture, DISABLED_ShowsEachEyeWhatItsRaysSeeInFiftyPoses) {
+TEST_P(StereoPicture, DISABLED_MatchesRaysForEachEyeInFiftyPoses) {
     expect_what_rays_see(50);
 }
 

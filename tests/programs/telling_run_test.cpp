@@ -107,7 +107,7 @@ const std::string long_text =
     "A description that is several times as long as the short text of its artifact. It "
     "says what there is to see of these rings, one after the other.";
 
-TEST_F(NarrationRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
+TEST_F(NarrationRun, SpeaksTheDescriptionAndShowsItsText) {
     put_pack(long_text, opus_);
     run();
     const std::vector<std::int16_t> truth = sound::read_opus(opus_)->samples;
@@ -123,7 +123,7 @@ TEST_F(NarrationRun, SpeaksTheDescriptionAndShowsItsTextMeanwhile) {
     EXPECT_NE(frames.find(",describe,en,description.0,"), std::string::npos);
 }
 
-TEST_F(NarrationRun, ADamagedRecordingIsSaidOnceAndItsTextIsShown) {
+TEST_F(NarrationRun, ReportsADamagedRecordingAndShowsItsText) {
     Bytes damaged = opus_;
     damaged.resize(60);
     put_pack(long_text, damaged);

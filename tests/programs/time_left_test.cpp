@@ -72,7 +72,7 @@ std::vector<double> factors_of(double reading, double bake) {
     return factors;
 }
 
-TEST(TimeLeft, IsExactIfAllGoesAsExpected) {
+TEST(TimeLeft, IsExactWhenStagesTakeTheirExpectedTime) {
     for (const double at : {0.0, 0.2, 0.5, 0.9}) {
         const Outcome outcome = estimate(Work(0.3), factors_of(1.0, 1.0), at);
         EXPECT_NEAR(outcome.estimated_s, outcome.true_s, 1e-9) << at;
@@ -107,7 +107,7 @@ TEST(TimeLeft, IsWithinAFactorOfTwoAtHalfOfTheTime) {
     EXPECT_LE(unforeseen, 2);
 }
 
-TEST(TimeLeft, AStageThatIsLeftOutSaysNothing) {
+TEST(TimeLeft, SkippedStageDoesNotChangeTheEstimate) {
     TimeLeft left({0.25, 0.75, 1.0}, 40.0);
     left.report(0.0, 0.0);
     left.report(10.0, 0.75); // without the second one

@@ -54,12 +54,12 @@ protected:
     }
 };
 
-TEST_F(Turn, AFrustumShowsTheSideThatLooksAtTheVisitor) {
+TEST_F(Turn, FrustumShowsTheSideFacingTheVisitor) {
     ASSERT_EQ(bake("frustum"), 0) << text("err.txt");
     expect_red_where_seen();
 }
 
-TEST_F(Turn, ACubeShowsTheSideThatLooksAtTheVisitor) {
+TEST_F(Turn, CubeShowsTheSideFacingTheVisitor) {
     ASSERT_EQ(bake("cube"), 0) << text("err.txt");
     expect_red_where_seen();
 }

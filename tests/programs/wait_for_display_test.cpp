@@ -96,7 +96,7 @@ protected:
     std::vector<std::string> heard; ///< messages to the service manager during the wait
 };
 
-TEST_F(WaitForDisplay, ADisplayThatIsThereIsTakenAtOnce) {
+TEST_F(WaitForDisplay, TakesAnAvailableDisplayAtOnce) {
     machine.trouble = [](Nanoseconds) { return std::nullopt; };
     const auto display = waited();
     ASSERT_TRUE(display);
@@ -106,7 +106,7 @@ TEST_F(WaitForDisplay, ADisplayThatIsThereIsTakenAtOnce) {
     EXPECT_EQ(said, "");
 }
 
-TEST_F(WaitForDisplay, APersonIsToldAtOnce) {
+TEST_F(WaitForDisplay, FailsAtOnceWithoutAService) {
     ::unsetenv("NOTIFY_SOCKET");
     machine.trouble = [](Nanoseconds) { return no_card; };
     const auto display = waited();
@@ -117,7 +117,7 @@ TEST_F(WaitForDisplay, APersonIsToldAtOnce) {
     EXPECT_EQ(said, "") << "the program says it";
 }
 
-TEST_F(WaitForDisplay, AServiceWaitsForACardForAsLongAsItTakes) {
+TEST_F(WaitForDisplay, WaitsForAMissingCardWithoutALimit) {
     machine.trouble = [](Nanoseconds since) {
         return since < seconds(600) ? std::optional(no_card) : std::nullopt;
     };
@@ -127,7 +127,7 @@ TEST_F(WaitForDisplay, AServiceWaitsForACardForAsLongAsItTakes) {
     EXPECT_EQ(times_said(no_card), 1);
 }
 
-TEST_F(WaitForDisplay, TheServiceManagerHearsWhyAndIsAskedForTimeAtEachLook) {
+TEST_F(WaitForDisplay, ReportsTheReasonAndExtendsTheTimeoutAtEachTry) {
     machine.trouble = [](Nanoseconds since) {
         return since < seconds(3) ? std::optional(no_card) : std::nullopt;
     };
@@ -137,7 +137,7 @@ TEST_F(WaitForDisplay, TheServiceManagerHearsWhyAndIsAskedForTimeAtEachLook) {
               (std::vector<std::string>{"STATUS=" + no_card.message, more_time, more_time, more_time}));
 }
 
-TEST_F(WaitForDisplay, ACardThatCannotBeUsedIsGivenTimeToBoot) {
+TEST_F(WaitForDisplay, WaitsForAnUnusableCardWhileBooting) {
     machine.trouble = [](Nanoseconds since) {
         return since < longest_boot ? std::optional(no_permission) : std::nullopt;
     };
@@ -145,7 +145,7 @@ TEST_F(WaitForDisplay, ACardThatCannotBeUsedIsGivenTimeToBoot) {
     EXPECT_EQ(times_said(no_permission), 1);
 }
 
-TEST_F(WaitForDisplay, AndThenEndsTheRun) {
+TEST_F(WaitForDisplay, FailsForAnUnusableCardAfterTheLongestBoot) {
     machine.trouble = [](Nanoseconds) { return no_permission; };
     const auto display = waited();
     ASSERT_FALSE(display);
@@ -154,7 +154,7 @@ TEST_F(WaitForDisplay, AndThenEndsTheRun) {
     EXPECT_EQ(machine.waits, longest_boot / seconds(1));
 }
 
-TEST_F(WaitForDisplay, EachNewReasonIsSaid) {
+TEST_F(WaitForDisplay, LogsEachNewReasonOnce) {
     machine.trouble = [](Nanoseconds since) -> std::optional<Error> {
         if (since >= seconds(20)) {
             return std::nullopt;
@@ -166,7 +166,7 @@ TEST_F(WaitForDisplay, EachNewReasonIsSaid) {
     EXPECT_EQ(times_said(no_permission), 1);
 }
 
-TEST_F(WaitForDisplay, AStopSignalEndsTheProcessWhileItWaitsAndIsKeptOtherwise) {
+TEST_F(WaitForDisplay, StopSignalKillsTheProcessOnlyWhileWaiting) {
     machine.trouble = [](Nanoseconds) { return no_card; };
     machine.in_a_wait = [] { // as a service manager: to the process, of which another thread takes it
         ::kill(::getpid(), SIGTERM);

@@ -20,7 +20,7 @@ bool leaves_to_others(int signal) {
     return sigismember(&blocked, signal) == 1;
 }
 
-TEST(FrameWorkers, DoEachPieceOnce) {
+TEST(FrameWorkers, ProcessEachPieceOnce) {
     for (const int threads : {1, 2, 5}) {
         FrameWorkers workers(threads);
         for (const int count : {0, 1, 2, 1000}) {
@@ -39,7 +39,7 @@ TEST(FrameWorkers, DoEachPieceOnce) {
 }
 
 /// A stop signal for the exhibit would end it at once in a thread that does not block the signal.
-TEST(FrameWorkers, LeaveTheStopSignalsToTheCaller) {
+TEST(FrameWorkers, BlockStopSignalsInWorkerThreads) {
     constexpr int threads = 3;
     FrameWorkers workers(threads);
     std::barrier all(threads); // makes each thread take one piece

@@ -186,7 +186,7 @@ struct ShownCell {
 };
 
 /// A cell is drawn wider by 4 % of its size along both its axes, and 2 % may be perspective.
-TEST(GrazingEye, SeesEachPlaceOnItsRay) {
+TEST(GrazingEye, ShowsEachPlaceOnItsRay) {
     Grazing drawn;
     const double px_box = 0.9 / drawn.settings.projector.pinhole.fx *
                           glm::length(glm::dvec3(drawn.subject.frame.box_from_file[0]));
@@ -215,7 +215,7 @@ TEST(GrazingEye, SeesEachPlaceOnItsRay) {
 }
 
 /// A cell is drawn wider by 4 % of its size: beyond an outline, and over a neighbour.
-TEST(GrazingEye, SeesWhatRaysMeetOnTheRelief) {
+TEST(GrazingEye, MatchesRaysCastOntoTheRelief) {
     Grazing drawn;
     const bake::ReliefScene scene(drawn.relief);
     int met = 0;
@@ -242,7 +242,7 @@ TEST(GrazingEye, SeesWhatRaysMeetOnTheRelief) {
     EXPECT_LT(others, met / 25);
 }
 
-TEST(GrazingEye, SeesTheSameWithEachSetOfInstructions) {
+TEST(GrazingEye, PictureIsTheSameForEachInstructionSet) {
     Grazing drawn;
     RasterSamples plain;
     for (const Eye& eye : draw_eyes(drawn.prop, 5)) {
@@ -259,7 +259,7 @@ TEST(GrazingEye, SeesTheSameWithEachSetOfInstructions) {
     }
 }
 
-TEST(GrazingEye, TakesNoMoreStepsThanAnyOtherTimesThree) {
+TEST(GrazingEye, TakesAtMostThreeTimesTheOrdinarySteps) {
     Grazing drawn;
     const std::vector<bench::BenchPose> poses = bench::draw_poses(drawn.settings, drawn.prop, 20, 5).value();
     double ordinary = 0.0;

@@ -24,7 +24,7 @@ TEST(Lanes, AMaskHasABitForEachLane) {
     }
 }
 
-TEST(Lanes, TheSetBitsAreListedFromTheLowestOn) {
+TEST(Lanes, ListsSetBitsInAscendingOrder) {
     for (unsigned bits = 0; bits < 256; ++bits) {
         unsigned found = 0;
         int before = -1;

@@ -82,7 +82,7 @@ std::size_t at(int x, int y) {
     return static_cast<std::size_t>(y) * torch_px + static_cast<std::size_t>(x);
 }
 
-TEST(Nearness, IsThatOfRaysCastOntoTheRelief) {
+TEST(Nearness, MatchesRaysCastOntoTheRelief) {
     for (const glm::dvec3& from : {glm::dvec3(0.1, -0.15, 0.2), glm::dvec3(-0.08, 0.03, 0.12)}) {
         const Torch torch(from);
         const bake::ReliefScene scene(torch.relief);
@@ -102,7 +102,7 @@ TEST(Nearness, IsThatOfRaysCastOntoTheRelief) {
     }
 }
 
-TEST(Nearness, InAskedTilesIsThatOfTheWholePicture) {
+TEST(Nearness, RequestedTilesMatchTheWholePicture) {
     const Torch torch({0.1, -0.15, 0.2});
     const std::vector<float> all = torch.paint(whole());
     TileMask asked;
@@ -127,7 +127,7 @@ TEST(Nearness, InAskedTilesIsThatOfTheWholePicture) {
     EXPECT_GT(untouched, met);
 }
 
-TEST(Nearness, OfSeveralReliefsDoesNotDependOnTheirOrderNorOnUnseenOnes) {
+TEST(Nearness, DoesNotDependOnReliefOrderOrUnseenReliefs) {
     const Torch torch({0.1, -0.15, 0.2});
     RasterView unseen = torch.view;
     unseen.faces.clear();
@@ -143,7 +143,7 @@ TEST(Nearness, OfSeveralReliefsDoesNotDependOnTheirOrderNorOnUnseenOnes) {
     }
 }
 
-TEST(Nearness, IsTheSameWithEachSetOfInstructions) {
+TEST(Nearness, IsTheSameForEachInstructionSet) {
     const Torch torch({0.1, -0.15, 0.2});
     std::vector<float> best(std::size_t{torch_px} * torch_px, 0.0F);
     std::vector<float> plain = best;
@@ -157,7 +157,7 @@ TEST(Nearness, IsTheSameWithEachSetOfInstructions) {
     EXPECT_GT(*std::max_element(best.begin(), best.end()), 0.0F);
 }
 
-TEST(TileMask, AsksForTheTilesThatARectangleMeets) {
+TEST(TileMask, ContainsTheTilesThatARectangleTouches) {
     TileMask mask;
     EXPECT_TRUE(mask.bounds().empty());
     mask.ask(PixelRectangle{});

@@ -37,7 +37,7 @@ bool has(const PixelRectangle& part, int x, int y) {
     return x >= part.x && x < part.x + part.width && y >= part.y && y < part.y + part.height;
 }
 
-TEST(Painter, PaintsWhatIsCastAndNothingOutsideItsRectangles) {
+TEST(Painter, PaintsTheRasterizedSamplesAndNothingOutsideItsRectangles) {
     const Painting painting;
     const glm::u8vec4 untouched(1, 2, 3, 4);
     ReliefPainter painter(2);
@@ -95,7 +95,7 @@ struct PoseRaster {
     }
 };
 
-TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
+TEST(Painter, ColoursAreTheSameForEachInstructionSet) {
     PoseRaster pose;
     const auto& [painting, light, items, samples, view, pages] = pose;
     for (const int count : {1, 2, 4, 8, 16}) {
@@ -113,7 +113,7 @@ TEST(Painter, TheProcessorsInstructionsDoNotChangeACode) {
 /// Reference per sample, with colour_at and in linear light: if all samples of a pixel show one cell, their
 /// mean code is within the range of theirs; if they show several blocks, or some show nothing, the result is
 /// their mean light.
-TEST(Painter, APixelIsTheMeanOfWhatItsSamplesShow) {
+TEST(Painter, PixelIsTheMeanOfItsSamples) {
     PoseRaster pose;
     const auto& [painting, light, items, samples, view, pages] = pose;
     for (const unsigned count : {2U, 4U, 16U}) {
@@ -161,7 +161,7 @@ TEST(Painter, APixelIsTheMeanOfWhatItsSamplesShow) {
     }
 }
 
-TEST(Painter, OneThreadOrFivePaintTheSame) {
+TEST(Painter, PictureDoesNotDependOnTheThreadCount) {
     const Painting painting;
     ReliefPainter alone(1);
     ReliefPainter together(5);
@@ -179,7 +179,7 @@ TEST(Painter, OneThreadOrFivePaintTheSame) {
 
 /// More threads than bands: the assignment is random, and some threads paint their first band in a later
 /// picture.
-TEST(Painter, AfterOnePictureTheSameAllocatesNothingWhoeverPaintsIt) {
+TEST(Painter, RepaintingAllocatesNothing) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
@@ -195,7 +195,7 @@ TEST(Painter, AfterOnePictureTheSameAllocatesNothingWhoeverPaintsIt) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-TEST(Painter, HitPointsAreTheRayCastsOwn) {
+TEST(Painter, HitPointsMatchTheRayCast) {
     const Painting painting;
     ReliefPainter painter(2);
     image::ImageFloat points(painting.settings.projector.pinhole.width,
@@ -237,7 +237,7 @@ double rmse(const image::Image8& picture, const bench::TruthPicture& truth) {
     return std::sqrt(sum / count);
 }
 
-TEST(Painter, MoreSamplesComeNearerToSixteenRays) {
+TEST(Painter, MoreSamplesReduceTheColourError) {
     const Painting painting;
     ReliefPainter painter(2);
     for (const bench::BenchPose& pose : painting.poses) {
@@ -254,7 +254,7 @@ TEST(Painter, MoreSamplesComeNearerToSixteenRays) {
     }
 }
 
-TEST(Painter, SamplesChangeOutlinesAndLeaveWhatIsEven) {
+TEST(Painter, SamplesChangeOutlinesButNotEvenAreas) {
     const Painting painting;
     ReliefPainter painter(2);
     const RasterView view = painting.view(painting.poses[0]);
@@ -290,7 +290,7 @@ TEST(SampleLight, TheMeanOfEqualCodesIsThatCode) {
     }
 }
 
-TEST(SampleLight, HalfOfWhiteIsCode188) {
+TEST(SampleLight, MeanOfBlackAndWhiteIsCode188) {
     const SampleLight light;
     const glm::u8vec4 mean = light.mean(light.light(glm::u8vec4(255)), 2);
     EXPECT_EQ(mean, glm::u8vec4(188, 188, 188, 255)); // 0.5 linear, IEC 61966-2-1

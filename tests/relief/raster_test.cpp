@@ -123,7 +123,7 @@ double ring_cell_mm(int texels) {
     return 1e3 * 2.0 * (bench::ring_major_m + bench::ring_minor_m) / texels;
 }
 
-TEST(Raster, ARingIsWhereTheRayCastFindsIt) {
+TEST(Raster, RingMatchesTheRayCast) {
     const Subject subject;
     const settings::Settings settings = bench::near_settings();
     const geometry::PropShape prop = settings::make_prop(settings.prop);
@@ -138,7 +138,7 @@ TEST(Raster, ARingIsWhereTheRayCastFindsIt) {
 constexpr std::array<geometry::Lens, 3> lenses{geometry::Lens{0.1, 0.0}, geometry::Lens{-0.12, 0.04},
                                                geometry::Lens{0.3, -0.2}};
 
-TEST(Raster, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
+TEST(Raster, RingMatchesTheRayCastWithLensDistortion) {
     const Subject subject;
     const BlockRelief relief = subject.relief(256);
     for (const geometry::Lens& lens : lenses) {
@@ -154,7 +154,7 @@ TEST(Raster, BehindALensThatDistortsARingIsWhereTheRayCastFindsIt) {
 
 /// Large blocks of a coarse relief behind a lens with strong distortion: each is listed for all pixels of its
 /// face, and only for those.
-TEST(Raster, BehindALensTheListLeavesNothingOut) {
+TEST(Raster, BlockListIsCompleteWithLensDistortion) {
     const Subject subject;
     const BlockRelief relief = subject.relief(32);
     for (const geometry::Lens& lens : lenses) {
@@ -204,7 +204,7 @@ std::shared_ptr<bake::SourceMesh> askew_block() {
     return mesh;
 }
 
-TEST(Raster, SharpEdgesAreCutWhereTheyEnd) {
+TEST(Raster, DrawsSharpEdgesWithinTheErrorLimits) {
     const Subject subject{askew_block()};
     const settings::Settings settings = bench::near_settings();
     const geometry::PropShape prop = settings::make_prop(settings.prop);
@@ -222,7 +222,7 @@ TEST(Raster, SharpEdgesAreCutWhereTheyEnd) {
     EXPECT_LT(sum.mean_mm, 0.01);
 }
 
-TEST(Raster, ASoupWithTrianglesTurnedAtRandomHasNoHoles) {
+TEST(Raster, InconsistentWindingLeavesNoHoles) {
     std::shared_ptr<bake::SourceMesh> soup = askew_block();
     for (std::size_t k = 0; k < soup->triangles.size(); k += 3) {
         std::swap(soup->triangles[k][1], soup->triangles[k][2]);

@@ -7,7 +7,7 @@ namespace {
 
 class Captions : public ::testing::TestWithParam<int> {};
 
-TEST_P(Captions, LieWhereTheyArePutAndNotOnTheProp) {
+TEST_P(Captions, AppearAtTheirPlaceAndNeverOnTheProp) {
     Rig rig(320, 200, GetParam());
     TestTable table(320, 200, false);
     // Left half white, right half empty; 0.2 m wide from the prop's middle to the right.

@@ -204,23 +204,23 @@ void check_two_l(int poses) {
           &TestTable::shuffle);
 }
 
-TEST(CellsDepth, LinkedRingsAreRightToThePixelInEveryCombination) {
+TEST(CellsDepth, LinkedRingsMatchRaysInEveryCombination) {
     check_linked_rings(usual_poses);
 }
 
-TEST(CellsDepth, ABoxThroughARingIsRightToThePixelInEveryCombination) {
+TEST(CellsDepth, BoxThroughARingMatchesRaysInEveryCombination) {
     check_box_through_ring(usual_poses);
 }
 
-TEST(CellsDepth, ThreePartsThatOverlapTurnedStretchedAndMirroredAreRightToThePixel) {
+TEST(CellsDepth, ThreeOverlappingTransformedPartsMatchRays) {
     check_overlapping_balls(usual_poses);
 }
 
-TEST(CellsDepth, TwoLWhoseBoxesCollideNeedNoMerging) {
+TEST(CellsDepth, TwoLShapesWithCollidingBoxesMatchRays) {
     check_two_l(usual_poses);
 }
 
-TEST(CellsDepth, DISABLED_AtManyPoses) {
+TEST(CellsDepth, DISABLED_ObjectsMatchRaysAtManyPoses) {
     check_linked_rings(long_poses);
     check_box_through_ring(long_poses);
     check_overlapping_balls(long_poses);
@@ -232,7 +232,7 @@ TEST(CellsDepth, SeveralSamplesAPixelAreRightAwayFromEdges) {
           &TestTable::shuffle);
 }
 
-TEST(CellsDepth, ACubeInTheHandBehindALensThatDistorts) {
+TEST(CellsDepth, HeldCubeBehindADistortingLensMatchesRays) {
     check("cube", geometry::make_cube(0.16), overlapping_balls(), all_combinations(3, mesh_or_raster), 6, 1,
           lenses[2], &TestTable::hold);
 }
@@ -287,7 +287,7 @@ TEST(CellsDepth, EachPartHasItsLight) {
 }
 
 /// The first ring fades from a relief to its mesh, in red and in half of the light, so that the pixels differ.
-TEST(CellsDepth, ACellFadesBesideAnotherAsThePatternGivesItsPixels) {
+TEST(CellsDepth, FadingCellTakesEachPixelFromOneOfItsLevels) {
     LitRings rings;
     const std::array<glm::vec3, 2> bright{glm::vec3(1.0F), glm::vec3(1.0F)};
     const std::array<glm::vec3, 2> dim{glm::vec3(0.5F), glm::vec3(1.0F)};
@@ -347,7 +347,7 @@ TEST(CellsDepth, AFrameAllocatesNothing) {
 }
 
 /// A quarter turn of the part, and of the eye with the part still: the frustum is square.
-TEST(CellsDepth, TheErrorOfATurnedPartIsThatOfAnEyeOnItsOtherSide) {
+TEST(CellsDepth, ErrorEstimateFollowsTheRotationOfThePart) {
     Interlocked world(geometry::make_frustum({}), linked_tori(), 1);
     world.choose(std::array{Way::Mesh, Way::Mesh});
     scene::PlacedLevel still = world.parts[0].level;

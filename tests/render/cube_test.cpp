@@ -39,7 +39,7 @@ TEST(Cube, EveryFaceShowsWhatARayCastShows) {
     EXPECT_EQ(shown, (std::set<std::string_view>{"+X", "-X", "+Y", "-Y", "+Z", "-Z"}));
 }
 
-TEST(Cube, UpsideDownItsBottomShowsTheArtifactFromBelow) {
+TEST(Cube, ShowsTheArtifactFromBelowWhenUpsideDown) {
     CubeRig rig;
     TestTable& table = rig.table;
     table.table_from_prop = {glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, edge_m}};

@@ -35,7 +35,7 @@ relief::BlockRelief without_cuts(relief::BlockRelief relief) {
     return relief;
 }
 
-TEST(DrawnRelief, ShowsTheCellsThatRaysMeetAndTheCutOnesWhereTheyAreCovered) {
+TEST(DrawnRelief, MatchesRaysAndShowsCutCellsOnlyWhereCovered) {
     std::mt19937 random(13);
     for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 40, rings(), lens);
@@ -77,7 +77,7 @@ TEST(DrawnRelief, ShowsTheCellsThatRaysMeetAndTheCutOnesWhereTheyAreCovered) {
     }
 }
 
-TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
+TEST(DrawnRelief, MatchesTheRasterizedRelief) {
     std::mt19937 random(14);
     for (const geometry::Lens& lens : lenses) {
         for (const int samples : {1, 16}) {
@@ -117,7 +117,7 @@ TEST(DrawnRelief, IsThePictureThatTheCastMakes) {
     }
 }
 
-TEST(DrawnRelief, AndItsCastFadeIntoEachOther) {
+TEST(DrawnRelief, FadesPixelByPixelFromTheRasterizedRelief) {
     ReliefRig rig(1);
     TestTable table(320, 200);
     std::mt19937 random(15);
@@ -136,7 +136,7 @@ TEST(DrawnRelief, AndItsCastFadeIntoEachOther) {
     EXPECT_GT(differing, 0U) << "the two do the same work";
 }
 
-TEST(DrawnRelief, TakesTheMemoryThatIsPlannedAndGivesItBack) {
+TEST(DrawnRelief, UsesThePlannedMemoryAndFreesIt) {
     ReliefRig rig(1);
     render::GpuStore& store = rig.renderer->store();
     const std::uint64_t before = store.bytes();
@@ -152,7 +152,7 @@ TEST(DrawnRelief, TakesTheMemoryThatIsPlannedAndGivesItBack) {
     EXPECT_FALSE(glIsTexture(numbers) == GL_TRUE);
 }
 
-TEST(DrawnRelief, UploadedInPiecesIsTheSame) {
+TEST(DrawnRelief, UploadInPiecesGivesTheSamePicture) {
     ReliefRig rig(1);
     const TestTable table(320, 200);
     const image::Image8 whole = rig.one(table, rig.drawn);
@@ -171,7 +171,7 @@ TEST(DrawnRelief, UploadedInPiecesIsTheSame) {
     EXPECT_EQ(rig.one(table, other).texels, whole.texels);
 }
 
-TEST(DrawnRelief, ThatTheDriverCannotHoldIsOneLineAndTheCastStays) {
+TEST(DrawnRelief, FailedUploadIsReportedAndChangesNothing) {
     ReliefRig rig(1);
     const Result<render::BlockSheet> sheet = render::sheet_of(*rig.relief, 64);
     ASSERT_FALSE(sheet);

@@ -61,7 +61,7 @@ protected:
     TestTable table;
 };
 
-TEST_F(EdgeFeather, APixelChangesByDegreesWhenAnEdgeCrossesIt) {
+TEST_F(EdgeFeather, PixelsChangeGraduallyAsAnEdgeCrosses) {
     const int sharp = max_change(false);
     const int feathered = max_change(true);
     EXPECT_GT(sharp, 25) << "the gains of front and top differ, or nothing is proved";
@@ -87,7 +87,7 @@ TEST_F(EdgeFeather, OnlyTheLastPixelOfTheBrighterFaceIsDimmed) {
     EXPECT_GT(dimmed, 0);
 }
 
-TEST_F(EdgeFeather, TheStripsCloseTheGapBetweenTheGains) {
+TEST_F(EdgeFeather, StripsMatchTheGainOfTheNeighbouringFace) {
     draw(true);
     ASSERT_FALSE(rig.plan.feathers.empty());
     for (const frustumscreen::scene::EdgeFeather& feather : rig.plan.feathers) {

@@ -86,7 +86,7 @@ protected:
     }
 };
 
-TEST_F(EyeCommand, AnEyeIsAHeadThatIsMovedBesideTheMiddle) {
+TEST_F(EyeCommand, EyePictureEqualsThatOfAHeadMovedSideways) {
     for (const char* technique : {"level0", "relief96", "relief96-gpu"}) {
         for (const char* light : {"", "--no-light --aov"}) {
             const std::string options = fmt::format("--technique {} {}", technique, light);
@@ -157,7 +157,7 @@ TEST_F(EyeCommand, ALayoutHoldsBothEyesPictures) {
     }
 }
 
-TEST_F(EyeCommand, BothEyesWithoutALayoutOrWhereOneIsShownAreRefused) {
+TEST_F(EyeCommand, RejectsInvalidCombinationsOfEyeOptions) {
     EXPECT_EQ(render("off", "poses", "x", "--eye both"), 1);
     EXPECT_TRUE(
         test::tells(text("err.txt"), {"frustumscreen: --eye both: ", "eye.stereo", "[render.no_stereo]\n"}));

@@ -87,7 +87,7 @@ TEST_P(Fading, GivesEveryPixelToExactlyOneOfTheTwoLevels) {
     }
 }
 
-TEST_P(Fading, IsLeftOutByARendererThatWasMadeWithoutItsShader) {
+TEST_P(Fading, DrawsNothingWithoutItsShader) {
     FadeRig rig(GetParam());
     rig.renderer = render::Renderer::create(320, 200, needs(GetParam())).value();
     rig.upload_again();
@@ -113,7 +113,7 @@ int bayer_rank(int x, int y, int size) {
     return 4 * bayer_rank(x % half, y % half, half) + corner[row][column];
 }
 
-TEST(Fading, PlacesAreThoseOfARayCastOfTheLevelThatHasThePixel) {
+TEST(Fading, PlacesMatchARayCastOfEachPixelsLevel) {
     FadeRig rig(1);
     TestTable table(320, 200);
     std::mt19937 random(9);

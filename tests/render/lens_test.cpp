@@ -27,7 +27,7 @@ TestTable wide(const geometry::Lens& lens) {
 /// A triangle's edge stays straight between its corners although the lens bends it: at 5 pixels length it is
 /// off by k1 (5 / f)^2 f 6 r / 8, less than a hundredth of a pixel of 1.4 mm; a surface seen at a grazing
 /// angle magnifies that ten times.
-TEST(BentPicture, HitPointsAreThoseOfARayCastThroughTheLens) {
+TEST(BentPicture, HitPointsMatchARayCastThroughTheLens) {
     std::mt19937 random(17);
     for (const geometry::Lens& lens : lenses) {
         Rig rig(256, 160, 1, rings(48, 24), wide(lens).projector);
@@ -75,7 +75,7 @@ TEST(BentPicture, LiesWithinATwentiethOfAPixelOfARayCast) {
     }
 }
 
-TEST(BentPicture, CullingTakesNothingAway) {
+TEST(BentPicture, CullingChangesNoPixel) {
     std::mt19937 random(12);
     for (const geometry::Lens& lens : lenses) {
         Rig rig(256, 160, 1, rings(), wide(lens).projector);
@@ -105,7 +105,7 @@ double light_of_pixel(const geometry::Pinhole& pinhole, int x, int y) {
     return 1.0 / (pinhole.fx * pinhole.fy * (across.x * down.y - across.y * down.x));
 }
 
-TEST(BentPicture, AWhiteArtifactSendsBackTheSameFromEveryPlace) {
+TEST(BentPicture, WhiteArtifactReflectsEvenLightEverywhere) {
     for (const geometry::Lens& lens : lenses) {
         Rig rig(256, 160, 1, rings(), wide(lens).projector);
         rig.pack.textures[0] = image::Image8(8, 8, {255, 255, 255, 255});

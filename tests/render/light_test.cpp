@@ -67,7 +67,7 @@ protected:
     TestTable table;
 };
 
-TEST_F(Light, AWhiteArtifactSendsBackTheSameFromEveryFace) {
+TEST_F(Light, WhiteArtifactReflectsEvenLightFromEveryFace) {
     table.eye_m = {0.0, -0.45, 0.5};
     const SentBack plain = draw(std::nullopt);
     EXPECT_TRUE(plain.faces[3] && plain.faces[4]) << "the front and the top are seen";
@@ -127,7 +127,7 @@ void compare_gains(const TestTable& table, const scene::FramePlan& plan, const i
     }
 }
 
-TEST_F(Light, EveryPixelHasTheCodeOfTheExactGain) {
+TEST_F(Light, PixelCodesMatchTheExactGain) {
     std::mt19937 random(6);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     Gains gains;
@@ -154,7 +154,7 @@ TEST_F(Light, EveryPixelHasTheCodeOfTheExactGain) {
 }
 
 /// Dim artifacts are shown brighter than their codes, by up to a factor of eight.
-TEST_F(Light, EveryCodeHasTheCodeOfItsShownLight) {
+TEST_F(Light, PixelCodesMatchTheSetBrightness) {
     table.eye_m = {0.0, -0.45, 0.5};
     for (const int code : {1, 3, 6, 10, 12, 40, 120, 250}) {
         rig.pack.textures[0] =

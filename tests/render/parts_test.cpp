@@ -35,7 +35,7 @@ struct NestedCast {
     }
 };
 
-TEST(Parts, PlacesAreThoseOfARayCastOfThemAll) {
+TEST(Parts, PlacesMatchARayCastOfAllParts) {
     NestedRig rig;
     const NestedCast cast{{rig.pack, rig.level.metres_per_box}, {rig.inner_pack, rig.inner.metres_per_box}};
     TestTable table(256, 160);
@@ -50,7 +50,7 @@ TEST(Parts, PlacesAreThoseOfARayCastOfThemAll) {
     }
 }
 
-TEST(Parts, TheirOrderDoesNotShow) {
+TEST(Parts, OrderDoesNotChangeThePicture) {
     NestedRig rig;
     TestTable table(256, 160);
     std::mt19937 random(22);
@@ -66,7 +66,7 @@ TEST(Parts, TheirOrderDoesNotShow) {
     }
 }
 
-TEST(Parts, OfOneArtifactShowItWhole) {
+TEST(Parts, TwoHalvesGiveThePictureOfTheWhole) {
     Rig rig(320, 200, 4);
     TestTable table(320, 200);
     scene::plan_frame(table.prop, rig.level, table.view(scene::LightCompensation{}), rig.plan);
@@ -88,7 +88,7 @@ TEST(Parts, OfOneArtifactShowItWhole) {
     EXPECT_EQ(rig.picture().texels, whole.texels);
 }
 
-TEST(Parts, AndACaptionAllocateNothing) {
+TEST(Parts, AllocateNothingWithACaption) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

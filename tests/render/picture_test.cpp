@@ -11,7 +11,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
+TEST(Picture, HitPointsMatchARayCastOverRandomPoses) {
     Rig rig(256, 160);
     TestTable table(256, 160);
     const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
@@ -26,7 +26,7 @@ TEST(Picture, HitPointsAreThoseOfARayCastOverRandomPoses) {
     }
 }
 
-TEST(Picture, HoldsForExtremeEyesAndProjectors) {
+TEST(Picture, HitPointsMatchForExtremeEyesAndProjectors) {
     Rig rig(256, 160);
     const ReferenceCast cast(rig.pack, rig.level.metres_per_box);
     TestTable overhead(256, 160);
@@ -77,7 +77,7 @@ TEST(Picture, ColoursAreTheTexturesCodesWithoutCompensation) {
     }
 }
 
-TEST(Picture, CullingTakesNothingAway) {
+TEST(Picture, CullingChangesNoPixel) {
     Rig rig(320, 200);
     TestTable table(320, 200);
     std::mt19937 random(11);
@@ -119,7 +119,7 @@ TEST(Picture, LiesWithinATwentiethOfAPixelOfARayCast) {
     }
 }
 
-TEST(Picture, SmoothOutlinesLeaveTheInsideAsItIs) {
+TEST(Picture, FourSamplesSmoothOnlyTheOutlines) {
     Rig sharp(256, 160, 1);
     TestTable table(256, 160);
     scene::plan_frame(table.prop, sharp.level, table.view(), sharp.plan);

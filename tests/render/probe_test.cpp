@@ -8,7 +8,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-TEST(Probe, IsReadAsItWasWrittenAndTouchesNothingElse) {
+TEST(Probe, RoundTripChangesNoOtherPixel) {
     Rig rig(320, 200);
     TestTable table(320, 200);
     scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
@@ -37,7 +37,7 @@ TEST(Probe, IsReadAsItWasWrittenAndTouchesNothingElse) {
     }
 }
 
-TEST(Probe, NeverTouchesWhatThePictureMayLight) {
+TEST(Probe, IsNotWrittenOverLitPixels) {
     Rig rig(320, 200);
     TestTable table(320, 200);
     // The prop in the picture's top left corner.
@@ -59,7 +59,7 @@ TEST(Probe, IsNotReadFromBlackWhiteOrTinyPictures) {
     EXPECT_EQ(render::read_probe(image::Image8(8, 1, {2, 2, 2, 255})), std::uint8_t{255});
 }
 
-TEST(Rest, APictureShownAgainIsNotDrawnAgain) {
+TEST(PictureAtRest, APictureShownAgainIsNotDrawnAgain) {
     Rig rig(320, 200, 4);
     TestTable table(320, 200);
     scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
@@ -73,7 +73,7 @@ TEST(Rest, APictureShownAgainIsNotDrawnAgain) {
     EXPECT_FALSE(rig.draw().drawn);
 }
 
-TEST(Rest, OfTwoBuffersTheOneThatLacksThePictureGetsIt) {
+TEST(PictureAtRest, UpdatesTheBufferThatLacksThePicture) {
     Rig rig(320, 200);
     TestTable table(320, 200);
     const unsigned framebuffer = rig.display->framebuffer();
@@ -90,7 +90,7 @@ TEST(Rest, OfTwoBuffersTheOneThatLacksThePictureGetsIt) {
 }
 
 /// Counts pixels: all others are filled with a grey that is never drawn, and must keep it.
-TEST(Rest, AMovedPropRedrawsItsOwnRectangleAlone) {
+TEST(PictureAtRest, MovedPropRedrawsOnlyItsRectangle) {
     Rig rig(640, 400);
     TestTable table(640, 400, false);
     scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);

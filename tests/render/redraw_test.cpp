@@ -52,7 +52,7 @@ TEST_P(Redrawing, NothingIsDrawnWhenNothingChanged) {
     EXPECT_TRUE(rig.draw().drawn);
 }
 
-TEST_P(Redrawing, NothingIsLeftOfAnArtifactThatIsPutAway) {
+TEST_P(Redrawing, ErasesAnArtifactThatIsRemoved) {
     Rig rig(320, 200, GetParam());
     TestTable table(320, 200);
     scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
@@ -66,7 +66,7 @@ TEST_P(Redrawing, NothingIsLeftOfAnArtifactThatIsPutAway) {
 
 INSTANTIATE_TEST_SUITE_P(Samples, Redrawing, ::testing::Values(1, 2, 4));
 
-TEST(Redrawing, OlderBuffersGetWhatTheyMissed) {
+TEST(Redrawing, RedrawsWhatAnOlderBufferMissed) {
     // Two alternating buffers, as in a page-flipping display: each holds the picture before the last.
     Rig rig(320, 200);
     TestTable table(320, 200, false);

@@ -23,7 +23,7 @@ std::vector<ReferenceCast::Hit> hits_of(const ReferenceCast& truth, const TestTa
     return hits;
 }
 
-TEST(Relief, ShowsEachPlaceWhereTheRayCastFindsIt) {
+TEST(Relief, PlacesMatchTheRayCast) {
     std::mt19937 random(3);
     for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
@@ -74,7 +74,7 @@ double evened(const TestTable& table, const glm::dvec2& pixel) {
     return d * d / glm::dot(normal, -glm::normalize(ray));
 }
 
-TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
+TEST(Relief, LiesWithinATwentiethOfAPixelWithAndWithoutEvenLight) {
     ReliefRig rig(16, 256, white(rings(16, 8)));
     const ReferenceCast cast(rig.pack, metres_per_box(rig.pack, rig.prop));
     TestTable table(320, 200);
@@ -94,7 +94,7 @@ TEST(Relief, LiesWithinATwentiethOfAPixelOfARayCastAsItIsAndInEvenLight) {
     }
 }
 
-TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
+TEST(Relief, HasTheColoursOfItsMesh) {
     ReliefRig rig(1);
     TestTable table(320, 200);
     std::mt19937 random(4);
@@ -128,7 +128,7 @@ TEST(Relief, HasTheColoursOfItsMeshInAnyLight) {
 /// White, so a pixel's code is its gain: for a mesh from the shader, for a rasterized relief from the
 /// processor. Where the prop's faces meet, a rasterizer's grid of 1/256 pixel may assign a pixel to the other
 /// face.
-TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
+TEST(Relief, HasTheLightAndSoftEdgesOfItsMesh) {
     for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 128, white(rings()), lens);
         TestTable table = table_of(lens);
@@ -163,7 +163,7 @@ TEST(Relief, HasTheLightThatAMeshHasAndItsSoftEdges) {
 }
 
 /// Arbitrary codes, on and off the faces, in compensated light and with soft edges.
-TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
+TEST(Relief, LightIsEqualForPlainAndBestInstructions) {
     for (const geometry::Lens& lens : lenses) {
         ReliefRig rig(1, 256, rings(), lens);
         const TestTable table = table_of(lens);
@@ -191,7 +191,7 @@ TEST(Relief, IsLitAlikeByTheInstructionsOfAnyProcessor) {
     }
 }
 
-TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
+TEST(Relief, CoversPicturesOnThePropOnlyAtItsPixels) {
     ReliefRig rig(1);
     const TestTable table(320, 200);
     const image::Image8 alone = rig.one(table, rig.raster, scene::LightCompensation{});
@@ -215,7 +215,7 @@ TEST(Relief, HidesWhatShinesOnThePropWhereItIsAndNowhereElse) {
 
 /// Without anything else in the picture the relief is copied, which is no draw call, otherwise drawn: both
 /// give equal pixels, and the table's picture next to the prop stays unchanged whichever way a strip takes.
-TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
+TEST(Relief, LeavesPicturesOnTheTableUnchanged) {
     ReliefRig rig(2);
     TestTable table(320, 200);
     std::mt19937 random(11);
@@ -260,7 +260,7 @@ TEST(Relief, LeavesWhatLiesOnTheTableAsItIs) {
     EXPECT_GT(beside, 10'000U);
 }
 
-TEST(Relief, LeavesNothingBehindWhereItWas) {
+TEST(Relief, PartialRedrawEqualsFullRedraw) {
     ReliefRig rig(2);
     TestTable table(320, 200);
     std::mt19937 random(12);
@@ -275,7 +275,7 @@ TEST(Relief, LeavesNothingBehindWhereItWas) {
     }
 }
 
-TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
+TEST(Relief, FadesPixelByPixelBetweenMeshAndRelief) {
     for (const auto& [samples, on_gpu] : {std::pair(1, false), {4, false}, {1, true}, {4, true}}) {
         ReliefRig rig(samples);
         const scene::PlacedLevel& which = on_gpu ? rig.drawn : rig.raster;
@@ -308,7 +308,7 @@ TEST(Relief, AndAMeshShareTheirPixelsInAFade) {
     }
 }
 
-TEST(Relief, TwoOfThemFadeIntoEachOther) {
+TEST(Relief, FadesPixelByPixelBetweenTwoReliefs) {
     ReliefRig rig(1);
     const std::shared_ptr<const relief::BlockRelief> coarse = relief_of(rig.pack, 64);
     scene::PlacedLevel other =
@@ -326,7 +326,7 @@ TEST(Relief, TwoOfThemFadeIntoEachOther) {
     }
 }
 
-TEST(Relief, IsGoneWhenItWasReleased) {
+TEST(Relief, DisappearsAfterRelease) {
     ReliefRig rig(1);
     const TestTable table(320, 200);
     for (const scene::PlacedLevel& which : {rig.raster, rig.drawn}) {
@@ -336,7 +336,7 @@ TEST(Relief, IsGoneWhenItWasReleased) {
     }
 }
 
-TEST(Relief, AFrameOfItAllocatesNothing) {
+TEST(Relief, AFrameAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

@@ -101,7 +101,7 @@ TEST_F(RenderCommand, CastsTheReliefOfAPackThatHasOne) {
     EXPECT_GT(lit_pixels(picture("live/frame_00000.png")), 1000U);
 }
 
-TEST_F(RenderCommand, SaysThatPosesAreOffTheTable) {
+TEST_F(RenderCommand, ReportsPosesOffTheTable) {
     ASSERT_TRUE(write_file(folder / "poses.csv", as_bytes("t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n"
                                                           "1000,1,0.20,0,0,1,0,0,0,1\n"
                                                           "2000,1,20,0,0,1,0,0,0,1\n")));
@@ -126,7 +126,7 @@ TEST_F(RenderCommand, ShowsTheVisitorsView) {
     EXPECT_EQ(picture("half/frame_00000.png").width, 640); // near.toml has 1280
 }
 
-TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {
+TEST_F(RenderCommand, SheetAcceptsOnlyProjectorPictures) {
     const auto sheet = [&](const std::string& arguments) {
         const std::string command =
             fmt::format("'{}/frustumscreen-sheet' --config '{}/config/near.toml' {} -o sheet.png "
@@ -146,7 +146,7 @@ TEST_F(RenderCommand, ASheetIsMadeOfTheProjectorsPicturesAlone) {
     EXPECT_TRUE(fs::exists(folder / "sheet.png"));
 }
 
-TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
+TEST_F(RenderCommand, ReportsFailuresInOneLine) {
     struct Case {
         std::string arguments;
         int status;
@@ -166,7 +166,7 @@ TEST_F(RenderCommand, SaysWhatIsWrongInOneLine) {
     }
 }
 
-TEST_F(RenderCommand, HelpIsNoFailure) {
+TEST_F(RenderCommand, HelpAndVersionExitWithZero) {
     EXPECT_EQ(run("render --help"), 0);
     EXPECT_NE(text("out.txt").find("--poses"), std::string::npos);
     EXPECT_EQ(run("--version"), 0);
@@ -175,7 +175,7 @@ TEST_F(RenderCommand, HelpIsNoFailure) {
     EXPECT_EQ(text("out.txt").rfind("frustumscreen ", 0), 0U);
 }
 
-TEST_F(RenderCommand, WrongArgumentsAreToldApart) {
+TEST_F(RenderCommand, NamesTheInvalidArgument) {
     const auto refusal = [&](const std::string& arguments) {
         EXPECT_EQ(run(arguments), 2) << arguments;
         const std::string error = text("err.txt");

@@ -42,7 +42,7 @@ void expect_same(const image::Image8& picture, const image::Image8& other) {
 }
 
 /// For example a lifted prop: it is drawn completely, with fewer samples.
-TEST(SampleGrid, APictureWithoutRoomIsThatOfFewerSamples) {
+TEST(SampleGrid, DrawsFewerSamplesWithoutRoom) {
     TestTable table(256, 160);
     const auto picture = [&](int samples, std::optional<PixelSize> outline) {
         Rig rig(256, 160);

@@ -109,7 +109,7 @@ TEST(Solids, EveryFaceShowsWhatARayCastShows) {
     }
 }
 
-TEST(Solids, AReliefShowsEachPlaceWhereTheRayCastFindsItAndStaysOnItsFaces) {
+TEST(Solids, ReliefMatchesTheRayCastWithinItsFaces) {
     for (const char* const name : solids) {
         const geometry::PropShape prop = solid::example_prop(name);
         for (const geometry::Lens& lens : {lenses[0], lenses[2]}) {
@@ -156,7 +156,7 @@ TEST(Solids, AReliefShowsEachPlaceWhereTheRayCastFindsItAndStaysOnItsFaces) {
     }
 }
 
-/// White, so a pixel's code is its gain; see Relief.HasTheLightThatAMeshHasAndItsSoftEdges.
+/// White, so a pixel's code is its gain; see Relief.HasTheLightAndSoftEdgesOfItsMesh.
 TEST(Solids, MeshAndReliefHaveTheSameLightAndSoftEdges) {
     for (const char* const name : solids) {
         const geometry::PropShape prop = solid::example_prop(name, solid::Underside::Dark);
@@ -248,7 +248,7 @@ TEST(Solids, CoverThePicturesOnTheTable) {
     }
 }
 
-TEST(Solids, AFrameAllocatesNothing) {
+TEST(Solids, PlanningAFrameAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

@@ -84,13 +84,13 @@ protected:
     }
 };
 
-TEST_P(StereoLayouts, ShowEachEyeThePictureThatItHasAlone) {
+TEST_P(StereoLayouts, ShowEachEyeItsOwnPicture) {
     for (const int samples : {1, 4}) {
         expect_each_eye_as_alone(samples, {});
     }
 }
 
-TEST_P(StereoLayouts, ShowEachEyeThePictureThatItHasAloneBehindALensThatDistorts) {
+TEST_P(StereoLayouts, ShowEachEyeItsOwnPictureThroughADistortingLens) {
     expect_each_eye_as_alone(1, lenses[2]);
 }
 
@@ -109,7 +109,7 @@ TEST_P(StereoLayouts, ShowOnePictureTwiceToEyesInOnePlace) {
 }
 
 /// They look through different faces.
-TEST_P(StereoLayouts, ShowEyesThatAreAMetreApart) {
+TEST_P(StereoLayouts, ShowEachEyeItsOwnPictureWhenAMetreApart) {
     const scene::StereoLayout layout = layout_of(GetParam());
     Pair each;
     {
@@ -134,7 +134,7 @@ TEST_P(StereoLayouts, ShowEyesThatAreAMetreApart) {
     expect_eyes(layout, rig.drawn_plans(), each, "a metre", true);
 }
 
-TEST_P(StereoLayouts, ShowNothingToAnEyeInThePropAndTheOtherItsPicture) {
+TEST_P(StereoLayouts, ShowNothingToAnEyeInsideTheProp) {
     const scene::StereoLayout layout = layout_of(GetParam());
     const std::array<glm::dvec3, 2> eyes{glm::dvec3(0.0, 0.0, 0.05), glm::dvec3(0.1, -0.5, 0.45)};
     Pair each;
@@ -152,7 +152,7 @@ TEST_P(StereoLayouts, ShowNothingToAnEyeInThePropAndTheOtherItsPicture) {
 }
 
 /// Each eye's picture takes the draws that it takes alone, and no other.
-TEST_P(StereoLayouts, TakeTheDrawsOfEachEye) {
+TEST_P(StereoLayouts, DrawCallsAreTheSumOfBothEyes) {
     const scene::StereoLayout layout = layout_of(GetParam());
     std::vector<int> calls;
     {
@@ -246,7 +246,7 @@ protected:
     }
 };
 
-TEST_P(StereoRedrawing, OverAWalkEqualsFullRedraw) {
+TEST_P(StereoRedrawing, PartialRedrawEqualsFullRedraw) {
     const auto [stereo, samples, buffers] = GetParam();
     StereoRig rig(layout_of(stereo), samples);
     std::vector<image::Image8> full;

@@ -13,7 +13,7 @@ std::size_t programs_that_exist() {
     return count;
 }
 
-TEST(Store, GivesANumberOutOnceAndFreesWhatIsReleased) {
+TEST(Store, NeverReusesANumberAndFreesReleasedData) {
     Rig rig(64, 40);
     render::GpuStore& store = rig.renderer->store();
     const std::uint64_t bytes = store.bytes();
@@ -36,7 +36,7 @@ TEST(Store, GivesANumberOutOnceAndFreesWhatIsReleased) {
     EXPECT_NE(store.find(second.mesh), nullptr);
 }
 
-TEST(Store, WhatIsReleasedIsGoneFromTheNextPicture) {
+TEST(Store, ReleasedMeshIsNotDrawn) {
     Rig rig(320, 200);
     const TestTable table(320, 200);
     scene::plan_frame(table.prop, rig.level, table.view(), rig.plan);
@@ -48,7 +48,7 @@ TEST(Store, WhatIsReleasedIsGoneFromTheNextPicture) {
     EXPECT_EQ(drawn.draw_calls, static_cast<int>(rig.plan.faces.size())); // the faces' outlines
 }
 
-TEST(Shaders, AreThoseOfTheNeedsAndNoFrameMakesOne) {
+TEST(Shaders, MatchTheNeedsAndNoFrameCompilesOne) {
     Rig rig(320, 200);
     EXPECT_EQ(rig.renderer->shaders(), scene::shaders_of(needs(1)));
     ASSERT_TRUE(rig.renderer->prepare(needs(4, true)));

@@ -65,12 +65,12 @@ TEST_F(TorchCommand, LightsWithStationThree) {
     EXPECT_GT(brighter, 300U);
 }
 
-TEST_F(TorchCommand, AnotherNameIsOneSentence) {
+TEST_F(TorchCommand, RejectsAnUnknownTorchInOneLine) {
     EXPECT_EQ(run("--torch xray"), 1);
     EXPECT_NE(sentence().find("xray"), std::string::npos);
 }
 
-TEST_F(TorchCommand, ATorchAnywhereIsDrawnOrDark) {
+TEST_F(TorchCommand, RendersATorchAtAnyPlace) {
     ASSERT_EQ(run("", "dark.csv", "dark"), 0);
     struct Place {
         const char* row;
@@ -95,7 +95,7 @@ TEST_F(TorchCommand, ATorchAnywhereIsDrawnOrDark) {
     }
 }
 
-TEST_F(TorchCommand, APoseThatIsNoneIsOneSentence) {
+TEST_F(TorchCommand, RejectsInvalidTorchPosesInOneLine) {
     for (const char* row :
          {"1000,3,nan,0,0.2,1,0,0,0,1\n", "1000,3,0,inf,0.2,1,0,0,0,1\n", "1000,3,0,0,0.2,0,0,0,0,1\n",
           "1000,3,0,0,0.2,nan,0,0,1,1\n", "1000,3,0,0,0.2,1,0,0\n", "1000,3,1e30,0,0.2,1,0,0,0,1\n",

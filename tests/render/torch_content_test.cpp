@@ -15,7 +15,7 @@ void check_on_both(Throw thrown, int poses = 3) {
     ThrownWorld(thrown).check(poses);
 }
 
-TEST(TorchContent, PicturesAndFilmsLieAsTheTorchIsHeld) {
+TEST(TorchContent, PicturesAndFilmsFollowTheTorchPose) {
     check_on_both({.name = "picture", .stage = {.source = torch::Source::Picture}});
     check_on_both({.name = "film",
                    .stage = {.source = torch::Source::Film, .opacity = 0.7},
@@ -35,7 +35,7 @@ TEST(TorchContent, PicturesAndFilmsLieAsTheTorchIsHeld) {
         .check(3);
 }
 
-TEST(TorchContent, RingsAndGridsAreDrawnWhereTheirLinesAre) {
+TEST(TorchContent, RingsAndGridsMatchTheirDefinition) {
     check_on_both({.name = "ring",
                    .stage = {.source = torch::Source::Ring, .size = 0.5, .width = 0.06},
                    .max_off = 0.05});

@@ -73,11 +73,11 @@ void check(const Lit& lit) {
     EXPECT_LT(counts.edge, pixels / (exact ? 50 : 12));
 }
 
-TEST(Torch, LightsMeshesAsRaysSay) {
+TEST(Torch, MatchesRaysOnMeshes) {
     check({.name = "mesh", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}});
 }
 
-TEST(Torch, LightsARasterizedReliefAsRaysSay) {
+TEST(Torch, MatchesRaysOnARasterizedRelief) {
     check({.name = "raster", .objects = as_one(ball_and_post()), .chosen = {Way::RasterizedRelief}});
     check({.name = "raster_lens",
            .objects = as_one(ball_and_post()),
@@ -85,7 +85,7 @@ TEST(Torch, LightsARasterizedReliefAsRaysSay) {
            .lens = lenses[3]});
 }
 
-TEST(Torch, LightsAReliefOfTheGpuAsRaysSay) {
+TEST(Torch, MatchesRaysOnAGpuRelief) {
     check({.name = "gpu", .objects = as_one(ball_and_post()), .chosen = {Way::DrawnRelief}});
     check({.name = "gpu_lens",
            .objects = as_one(ball_and_post()),
@@ -103,14 +103,14 @@ TEST(Torch, CellsCastShadowsOnEachOther) {
            .chosen = {Way::Mesh, Way::RasterizedRelief, Way::DrawnRelief}});
 }
 
-TEST(Torch, LooksIntoACrate) {
+TEST(Torch, MatchesRaysInsideACrate) {
     check({.name = "crate_m", .objects = box_in_crate(), .chosen = {Way::Mesh, Way::Mesh}});
     check({.name = "crate_r",
            .objects = box_in_crate(),
            .chosen = {Way::RasterizedRelief, Way::RasterizedRelief}});
 }
 
-TEST(Torch, SeveralShineAtOnce) {
+TEST(Torch, SeveralMatchRays) {
     check({.name = "three",
            .objects = ball_and_post(),
            .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
@@ -122,7 +122,7 @@ TEST(Torch, SeveralShineAtOnce) {
            .poses = 8});
 }
 
-TEST(Torch, LightsACubeInTheHandBehindALensThatDistorts) {
+TEST(Torch, MatchesRaysOnAHeldCubeBehindADistortingLens) {
     Lit cube{.name = "cube_m",
              .objects = ball_in_ring(), // of small triangles: a lens bends their corners alone
              .chosen = {Way::Mesh, Way::Mesh},
@@ -188,7 +188,7 @@ TEST(Torch, AtTheEyeLightsAllThatTheEyeSees) {
     }
 }
 
-TEST(Torch, ThatLightsNothingChangesNoByte) {
+TEST(Torch, ChangesNothingWithoutLightOrAValidPose) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const Way way : ways) {
         Still still(way);
@@ -284,7 +284,7 @@ TEST(Torch, InsideAnObjectLightsNothingBesideItsBeam) {
 }
 
 /// There it is in the object's box, and not in the object.
-TEST(Torch, BetweenTheWallsOfACrateLightsWhatRaysSay) {
+TEST(Torch, MatchesRaysBetweenTheWallsOfACrate) {
     for (const auto& [way, cut_outs] :
          {Walls{Way::Mesh}, Walls{Way::Mesh, true}, Walls{Way::DrawnRelief}, Walls{Way::RasterizedRelief}}) {
         Still still(way, 5, box_in_crate());

@@ -154,7 +154,7 @@ TEST_F(PinCommand, WindowsKeepTheTorchsLightOfTheFirstPose) {
     }
 }
 
-TEST_F(PinCommand, WrongUseIsOneSentence) {
+TEST_F(PinCommand, RejectsInvalidPinsInOneLine) {
     for (const char* const pin : {"0.1", "0.1,x", "0.1,0.2,30,4", "1e9,0", "nan,0", "0.1,0.2,400", "''"}) {
         EXPECT_EQ(run(fmt::format("--pin {}", pin)), 2) << pin;
         const std::string error = text("err.txt");

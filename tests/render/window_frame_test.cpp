@@ -8,7 +8,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-TEST(WindowsInAFrame, CostNothingWhereThereAreNone) {
+TEST(WindowsInAFrame, DoNotChangeThePlanOfTheProp) {
     WindowRig rig(ball_and_post(), std::array{Way::Mesh, Way::RasterizedRelief, Way::DrawnRelief}, 4);
     scene::FramePlan plain = scene::make_plan(rig.world.prop, 100'000, 3);
     std::mt19937 random(1);
@@ -87,7 +87,7 @@ TEST(WindowsInAFrame, PartialRedrawEqualsFullRedraw) {
     }
 }
 
-TEST(WindowsInAFrame, AChangeOfOneRedrawsThatOneAlone) {
+TEST(WindowsInAFrame, RedrawsOnlyTheChangedWindow) {
     WindowRig rig(as_one(ball_and_post()), std::array{Way::Mesh}, 4);
     for (const double side : {-1.0, 1.0}) {
         rig.pin({.middle_m = {0.15 * side, 0.0}, .width_m = 0.05, .depth_m = 0.05});

@@ -101,25 +101,25 @@ void check_light(const LitWindow& lit) {
     EXPECT_LT(counts.edge, pixels / (exact ? 20 : 5));
 }
 
-TEST(WindowLight, LightsMeshesAsRaysSay) {
+TEST(WindowLight, MatchesRaysOnMeshes) {
     check_light({.name = "mesh", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}});
     check_light(
         {.name = "two", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}, .torches = 2, .poses = 6});
 }
 
-TEST(WindowLight, LightsReliefsAsRaysSay) {
+TEST(WindowLight, MatchesRaysOnReliefs) {
     check_light({.name = "raster", .objects = as_one(ball_and_post()), .chosen = {Way::RasterizedRelief}});
     check_light(
         {.name = "gpu", .objects = as_one(ball_and_post()), .chosen = {Way::DrawnRelief}, .poses = 4});
 }
 
-TEST(WindowLight, LightsCellsAsRaysSay) {
+TEST(WindowLight, MatchesRaysOnCells) {
     check_light({.name = "cells",
                  .objects = ball_and_post(),
                  .chosen = {Way::RasterizedRelief, Way::Mesh, Way::RasterizedRelief}});
 }
 
-TEST(WindowLight, LightsSeveralSamplesAPixel) {
+TEST(WindowLight, MatchesRaysWithFourSamples) {
     check_light({.name = "samples",
                  .objects = ball_and_post(),
                  .chosen = {Way::Mesh, Way::Mesh, Way::Mesh},
@@ -127,7 +127,7 @@ TEST(WindowLight, LightsSeveralSamplesAPixel) {
 }
 
 /// As the part of a site: it goes on before the window, where it is cut off and casts no shadows.
-TEST(WindowLight, LightsAWorldThatReachesOutOfItsWindowAsRaysSay) {
+TEST(WindowLight, MatchesRaysOnAWorldBeyondItsWindow) {
     check_light({.name = "beyond", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}, .share = 0.6});
     check_light({.name = "beyond_cells",
                  .objects = ball_and_post(),
@@ -154,7 +154,7 @@ std::optional<geometry::Plane> cut_before(const TestTable& table, const scene::P
 }
 
 /// As the part of a site in the prop.
-TEST(WindowLight, LightsAWorldThatReachesOutOfThePropAsRaysSay) {
+TEST(WindowLight, MatchesRaysOnAWorldBeyondTheProp) {
     for (const int samples : {1, 4}) {
         Interlocked world(geometry::make_frustum({}), ball_and_post(), samples, {}, 256, true);
         world.choose(std::array{Way::Mesh, Way::Mesh, Way::Mesh});
@@ -246,7 +246,7 @@ constexpr std::array all_meshes{Way::Mesh, Way::Mesh, Way::Mesh};
 constexpr std::array mixed{Way::RasterizedRelief, Way::Mesh, Way::DrawnRelief};
 
 /// Prop and windows share the torches' pictures, one after the other.
-TEST(WindowLight, OfEachSurfaceIsOnThatSurfaceAlone) {
+TEST(WindowLight, LightsOnlyItsOwnSurface) {
     for (const int samples : {1, 4}) {
         for (const auto& chosen : {all_meshes, mixed}) {
             LitBoth both(chosen, samples);
@@ -281,7 +281,7 @@ TEST(WindowLight, OfEachSurfaceIsOnThatSurfaceAlone) {
     }
 }
 
-TEST(WindowLight, PlansWithoutIt) {
+TEST(WindowLight, ChangesThePlanOnlyWhenPresent) {
     LitBoth both(mixed, 4);
     WindowRig plain(ball_and_post(), mixed, 4, {}, 2);
     for (scene::Part& part : plain.world.parts) {
@@ -303,7 +303,7 @@ TEST(WindowLight, PlansWithoutIt) {
     EXPECT_EQ(plain.world.plan.hash, unlit) << "its windows have no room for torches";
 }
 
-TEST(WindowLight, AllocatesNothing) {
+TEST(WindowLight, PlanningAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

@@ -133,17 +133,17 @@ void check_rays(int samples, const geometry::Lens& lens, bool points) {
     EXPECT_LT(counts.outline, counts.windows() / 10);
 }
 
-TEST(WindowPatches, ShowWhatRaysMeet) {
+TEST(WindowPatches, MatchRays) {
     check_rays(1, {}, true);
     check_rays(4, {}, true);
 }
 
-TEST(WindowPatches, AreNotUsedBehindALensThatBendsLines) {
+TEST(WindowPatches, AreNotUsedBehindADistortingLens) {
     check_rays(1, lenses[1], false);
 }
 
 /// Where one part is shown for two pixels around.
-TEST(WindowPatches, HaveTheLightThatGeometryHas) {
+TEST(WindowPatches, HaveTheLightOfTheGeometry) {
     WindowRig rig(ball_and_post(), std::array{Way::Mesh, Way::Mesh, Way::Mesh}, 4);
     std::mt19937 random(7);
     double sum = 0.0;

@@ -68,19 +68,19 @@ void check(const Seen& seen) {
     EXPECT_LT(counts.cover, counts.prop / 20);
 }
 
-TEST(Windows, ShowMeshesAsRaysSay) {
+TEST(Windows, MatchRaysOnMeshes) {
     check({.name = "mesh", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}});
 }
 
-TEST(Windows, ShowARasterizedReliefAsRaysSay) {
+TEST(Windows, MatchRaysOnARasterizedRelief) {
     check({.name = "raster", .objects = as_one(ball_and_post()), .chosen = {Way::RasterizedRelief}});
 }
 
-TEST(Windows, ShowAReliefOfTheGpuAsRaysSay) {
+TEST(Windows, MatchRaysOnAGpuRelief) {
     check({.name = "gpu", .objects = as_one(ball_and_post()), .chosen = {Way::DrawnRelief}, .poses = 3});
 }
 
-TEST(Windows, ShowCellsBehindAndBeforeEachOther) {
+TEST(Windows, MatchRaysOnCells) {
     check({.name = "cells_m", .objects = ball_and_post(), .chosen = {Way::Mesh, Way::Mesh, Way::Mesh}});
     check({.name = "cells_rrr",
            .objects = ball_and_post(),
@@ -94,7 +94,7 @@ TEST(Windows, ShowCellsBehindAndBeforeEachOther) {
            .poses = 3});
 }
 
-TEST(Windows, AsManyAsThereMayBe) {
+TEST(Windows, MatchRaysWithFourWindows) {
     check({.name = "four_m", .objects = as_one(ball_and_post()), .chosen = {Way::Mesh}, .windows = 4});
     check({.name = "four_r",
            .objects = as_one(ball_and_post()),
@@ -102,7 +102,7 @@ TEST(Windows, AsManyAsThereMayBe) {
            .windows = 4});
 }
 
-TEST(Windows, BehindALensThatDistorts) {
+TEST(Windows, MatchRaysBehindADistortingLens) {
     for (const std::size_t lens : {std::size_t{1}, std::size_t{2}}) {
         check({.name = "lens_m" + std::to_string(lens),
                .objects = ball_in_ring(), // of small triangles: a lens bends their corners alone
@@ -149,7 +149,7 @@ TEST(Windows, FadeFromOneWayToAnother) {
 }
 
 /// Even light: the light that falls onto the table, times the picture's, is the same everywhere.
-TEST(Windows, AreAsBrightAsThePropEverywhere) {
+TEST(Windows, HaveEvenLightEverywhere) {
     for (const Way way : {Way::Mesh, Way::RasterizedRelief}) {
         WindowRig rig(ball_and_post(), std::array{way, way, way});
         std::mt19937 random(3);

@@ -62,7 +62,7 @@ protected:
     std::string path_;
 };
 
-TEST_F(ReportProgram, HasWhatTheMakersAskForAndNamesNobody) {
+TEST_F(ReportProgram, WritesEveryFileWithoutPersonalData) {
     ASSERT_EQ(run(command("out/report")), 0) << text("err.txt");
     const std::map<std::string, std::string> files = files_in("out/report");
     std::vector<std::string> names;
@@ -85,7 +85,7 @@ TEST_F(ReportProgram, HasWhatTheMakersAskForAndNamesNobody) {
     EXPECT_NE(files.at("version.txt").find("FrustumScreen "), std::string::npos);
 }
 
-TEST_F(ReportProgram, AMissingPieceSaysWhyAndTheOthersAreThere) {
+TEST_F(ReportProgram, ReportsAMissingPartAndWritesTheOthers) {
     put("kiosk.toml", "[table\n");
     put_journalctl("#!/bin/sh\necho 'no journal' >&2\nexit 1\n");
     std::filesystem::remove(folder / "faults");
@@ -97,7 +97,7 @@ TEST_F(ReportProgram, AMissingPieceSaysWhyAndTheOthersAreThere) {
     EXPECT_NE(files.at("faults.txt").find("faults"), std::string::npos);
 }
 
-TEST_F(ReportProgram, TheImporterTellsTheFolder) {
+TEST_F(ReportProgram, LetsTheImporterReportTheFolder) {
     put("stick/frustumscreen-report.toml", "");
     const std::string place = "stick/frustumscreen-report-2031-05-04-120000";
     ASSERT_EQ(
@@ -115,7 +115,7 @@ TEST_F(ReportProgram, TheImporterTellsTheFolder) {
     EXPECT_NE(text("out.txt").find("written"), std::string::npos) << text("out.txt");
 }
 
-TEST_F(ReportProgram, AFullStickAndAReadOnlyOneAreTold) {
+TEST_F(ReportProgram, ReportsAFullStickAndAReadOnlyOne) {
     put("stick/frustumscreen-report.toml", "");
     for (const auto& [options, refusal] : {std::pair("rw,size=600k", library::ImportRefusal::NoRoom),
                                            std::pair("ro", library::ImportRefusal::Unwritable)}) {
@@ -135,7 +135,7 @@ TEST_F(ReportProgram, AFullStickAndAReadOnlyOneAreTold) {
     }
 }
 
-TEST_F(ReportProgram, AFileThatAsksForMoreThanThereIsIsTold) {
+TEST_F(ReportProgram, RejectsInvalidRequestFiles) {
     const std::string name = "stick/frustumscreen-report.toml";
     put(name, "");
     EXPECT_EQ(told().at(0).outcome, library::ImportOutcome::NotWritten) << "the writer has left nothing";
@@ -156,7 +156,7 @@ TEST_F(ReportProgram, AFileThatAsksForMoreThanThereIsIsTold) {
     EXPECT_TRUE(told().empty());
 }
 
-TEST_F(ReportProgram, ANearlyRightNameIsTold) {
+TEST_F(ReportProgram, ReportsMisspeltNamesOfTheRequestFile) {
     for (const std::string name : {"frustumscreen-report.toml.txt", "Frustumscreen-Report.toml"}) {
         put("stick/" + name, "");
         const std::vector<library::ImportedPack> lines = told();

@@ -7,7 +7,7 @@
 namespace frustumscreen::report {
 namespace {
 
-TEST(SharedText, TheJournalLosesSerialNumbersAndLabelsAlone) {
+TEST(SharedText, RemovesOnlySerialNumbersAndLabelsFromTheJournal) {
     // As the kernel and systemd write them, by journalctl of Debian 12.
     const std::string journal =
         "2031-05-04T10:00:00+0000 kernel: usb 1-2: New USB device strings: Mfr=1, Product=2, SerialNumber=3\n"
@@ -26,7 +26,7 @@ TEST(SharedText, TheJournalLosesSerialNumbersAndLabelsAlone) {
     EXPECT_TRUE(shared.ends_with("its contents are being checked\n"));
 }
 
-TEST(SharedText, OfALongJournalTheNewestWholeLinesStay) {
+TEST(SharedText, KeepsTheNewestWholeLinesOfALongJournal) {
     std::string journal;
     for (int k = 0; k < 1000; ++k) {
         journal += fmt::format("line {}\n", k);
@@ -39,7 +39,7 @@ TEST(SharedText, OfALongJournalTheNewestWholeLinesStay) {
     EXPECT_EQ(shared_journal("\n\nno end", 100), "\n\nno end\n");
 }
 
-TEST(SharedText, FaultsComeInTheOrderOfTheirNumbers) {
+TEST(SharedText, SortsFaultsByTheirNumbers) {
     EXPECT_EQ(faults_in_order("4097 d   \n4098 e   \n    \n9 b   \n10 c   \n"),
               "9 b\n10 c\n4097 d\n4098 e\n");
     EXPECT_EQ(faults_in_order(""), "");

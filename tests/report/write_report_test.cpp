@@ -48,7 +48,7 @@ void expect_one_line(const library::ImportFailure& failure) {
     EXPECT_EQ(failure.reason.find('\n'), std::string::npos);
 }
 
-TEST(WriteReport, OnceItIsWrittenNoPowerCutTakesIt) {
+TEST(WriteReport, SurvivesAPowerCutAfterwards) {
     VolatileDisk disk;
     ASSERT_TRUE(write_report(disk, report()));
     const int states = disk.cut_power(100, 1, [](VolatileDisk& after) {
@@ -58,7 +58,7 @@ TEST(WriteReport, OnceItIsWrittenNoPowerCutTakesIt) {
     EXPECT_GE(states, 1);
 }
 
-TEST(WriteReport, PulledOutAtEachOperationWhatHasANameIsWhole) {
+TEST(WriteReport, LeavesOnlyWholeFilesWhenPulledOut) {
     const int operations = operations_of_a_report();
     ASSERT_GT(operations, 3 * 4);
     for (int k = 0; k < operations; ++k) {
@@ -78,7 +78,7 @@ TEST(WriteReport, PulledOutAtEachOperationWhatHasANameIsWhole) {
     }
 }
 
-TEST(WriteReport, KilledAtEachOperationWhatHasANameIsWhole) {
+TEST(WriteReport, LeavesOnlyWholeFilesWhenKilled) {
     const int operations = operations_of_a_report();
     for (int k = 0; k < operations; ++k) {
         VolatileDisk disk;
@@ -88,7 +88,7 @@ TEST(WriteReport, KilledAtEachOperationWhatHasANameIsWhole) {
     }
 }
 
-TEST(WriteReport, AFullStickGetsItsRoomBack) {
+TEST(WriteReport, RemovesItsFilesFromAFullStick) {
     const int operations = operations_of_a_report();
     for (int k = 2; k < operations; ++k) {
         VolatileDisk disk;
@@ -103,7 +103,7 @@ TEST(WriteReport, AFullStickGetsItsRoomBack) {
     }
 }
 
-TEST(WriteReport, WithoutRoomNothingIsBegun) {
+TEST(WriteReport, WritesNothingWithoutFreeSpace) {
     VolatileDisk disk;
     disk.free = 300'000;
     const tl::expected<void, library::ImportFailure> written = write_report(disk, report());
@@ -116,7 +116,7 @@ TEST(WriteReport, WithoutRoomNothingIsBegun) {
     }));
 }
 
-TEST(WriteReport, AReadOnlyStickIsTold) {
+TEST(WriteReport, ReportsAReadOnlyStick) {
     VolatileDisk disk;
     disk.plan.fail_from = 2; // it can be read
     disk.plan.error = EROFS;
@@ -126,7 +126,7 @@ TEST(WriteReport, AReadOnlyStickIsTold) {
     expect_one_line(written.error());
 }
 
-TEST(WriteReport, AFolderWithFilesIsLeftAsItIs) {
+TEST(WriteReport, LeavesAFolderWithFilesUnchanged) {
     VolatileDisk disk;
     disk.put("status.txt", "mine");
     const tl::expected<void, library::ImportFailure> written = write_report(disk, report());
@@ -164,7 +164,7 @@ struct Packs {
     std::uint64_t told = 0;
 };
 
-TEST(WriteReport, LargeFilesAreCopiedAndTold) {
+TEST(WriteReport, CopiesLargeFilesAndReportsProgress) {
     Packs packs;
     VolatileDisk disk;
     ASSERT_TRUE(write_report(disk, report(), packs.large));
@@ -175,7 +175,7 @@ TEST(WriteReport, LargeFilesAreCopiedAndTold) {
     });
 }
 
-TEST(WriteReport, PulledOutInALargeFileWhatHasANameIsWhole) {
+TEST(WriteReport, LeavesOnlyWholeLargeFilesWhenPulledOut) {
     Packs packs;
     VolatileDisk whole;
     ASSERT_TRUE(write_report(whole, report(), packs.large));
@@ -189,7 +189,7 @@ TEST(WriteReport, PulledOutInALargeFileWhatHasANameIsWhole) {
     }
 }
 
-TEST(WriteReport, AFailingDiskIsTheKiosksFault) {
+TEST(WriteReport, ReportsAFailingDiskOfTheKiosk) {
     Packs packs;
     packs.disk.plan.fail_from = 1;
     packs.disk.plan.error = EIO;
@@ -201,7 +201,7 @@ TEST(WriteReport, AFailingDiskIsTheKiosksFault) {
     EXPECT_EQ(packs.whole(disk) + whole_files(disk), 0) << "what was written is taken back";
 }
 
-TEST(WriteReport, RoomForLargeFilesIsLookedForFirst) {
+TEST(WriteReport, ChecksFreeSpaceForLargeFilesFirst) {
     Packs packs;
     VolatileDisk disk;
     disk.free = 5'000'000;

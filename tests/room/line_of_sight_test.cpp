@@ -23,7 +23,7 @@ bool holds(const Object& object, const glm::dvec3& box_size, double seconds, dou
            std::abs(at.z - 0.5 * size.z) <= 0.5 * grown * size.z;
 }
 
-TEST(LineOfSight, MeetsABoxWhereAPointOfTheLineIsFirstInIt) {
+TEST(LineOfSight, MeetsABoxAtTheFirstPointInsideIt) {
     std::mt19937_64 random(3);
     int met = 0;
     for (int k = 0; k < 1500; ++k) {
@@ -56,7 +56,7 @@ TEST(LineOfSight, MeetsABoxWhereAPointOfTheLineIsFirstInIt) {
     EXPECT_GT(met, 200);
 }
 
-TEST(LineOfSight, TheNearestObjectIsMetAndOneThatWasMetIsHeld) {
+TEST(LineOfSight, MeetsTheNearestObjectAndHoldsTheLastOne) {
     std::array<Object, 2> objects;
     objects[0].place_m = {0.0, 2.0, 0.0};
     objects[1].place_m = {0.0, 1.0, 0.0};

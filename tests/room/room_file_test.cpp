@@ -56,7 +56,7 @@ void expect_refusals(const Expectations& expectations) {
     }
 }
 
-TEST(RoomFile, HasEveryKey) {
+TEST(RoomFile, ParsesEveryKey) {
     const Room room = read("[[object]]\nname = \"the blue cup\"\npack = \"packs/cup.fspack\"\n"
                            "place_m = [-1.5, 2, 0.25]\nturn_deg = -45.5\nsize_m = 0.125\n"
                            "turns_per_minute = -2.5\nsway_m = [0.5, 0, -1]\nsway_s = 12\n");
@@ -71,7 +71,7 @@ TEST(RoomFile, HasEveryKey) {
                       .motion = {.turns_per_minute = -2.5, .sway_m = {0.5, 0.0, -1.0}, .sway_s = 12.0}}));
 }
 
-TEST(RoomFile, NeedsAPackAlone) {
+TEST(RoomFile, RequiresOnlyAPack) {
     const Room room = read(object());
     ASSERT_EQ(room.objects.size(), 1U);
     Object usual;
@@ -93,7 +93,7 @@ TEST(RoomFile, ListsEachPackOnceAndKeepsTheOrderOfTheObjects) {
     EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 0, 2}));
 }
 
-TEST(RoomFile, GivesAnObjectWithoutANameOneThatNoOtherHas) {
+TEST(RoomFile, GivesUnnamedObjectsUniqueNames) {
     const Room room =
         read(object() + object("name = \"cup-2\"") + object() + object("name = \"cup\"") + object());
     std::vector<std::string> names;
@@ -105,7 +105,7 @@ TEST(RoomFile, GivesAnObjectWithoutANameOneThatNoOtherHas) {
     EXPECT_EQ(read(object() + object()).objects[1].name, "cup-2");
 }
 
-TEST(HostileRoom, WithoutAnObjectIsRefused) {
+TEST(HostileRoom, IsRejectedWithoutObjects) {
     for (const char* nothing : {"", "\n\n", "# only a comment\n", "object = []\n"}) {
         expect_refusals(
             {{nothing, {"object is missing; write at least one table [[object]]", "[room.empty]"}}});
@@ -116,7 +116,7 @@ TEST(HostileRoom, WithoutAnObjectIsRefused) {
                      {"object = [5]\n", {":1: object[0] is 5; allowed is a table"}}});
 }
 
-TEST(HostileRoom, WithAMistypedKeyIsToldTheNearest) {
+TEST(HostileRoom, SuggestsTheNearestKey) {
     expect_refusals({
         {object("place = [0, 1, 0]"),
          {":3: object[0].place is not a known key", "nearest allowed key is object[0].place_m"}},
@@ -130,7 +130,7 @@ TEST(HostileRoom, WithAMistypedKeyIsToldTheNearest) {
     });
 }
 
-TEST(HostileRoom, WithAnObjectWithoutAPackIsToldWhich) {
+TEST(HostileRoom, NamesTheObjectWithoutAPack) {
     expect_refusals({
         {object() + "[[object]]\nname = \"vase\"\n",
          {":4: object[1].pack is missing; name the object's pack, a file *.fspack", "[room.no_pack]"}},
@@ -140,7 +140,7 @@ TEST(HostileRoom, WithAnObjectWithoutAPackIsToldWhich) {
     });
 }
 
-TEST(HostileRoom, WithANameTwiceIsToldBothPlaces) {
+TEST(HostileRoom, ReportsDuplicateAndLongNames) {
     expect_refusals({
         {object("name = \"a\"") + object("name = \"b\"") + object("name = \"a\""),
          {":9: object[2].name is \"a\", as at set/room.toml:3: object[0].name; give each object a name of "
@@ -152,7 +152,7 @@ TEST(HostileRoom, WithANameTwiceIsToldBothPlaces) {
     });
 }
 
-TEST(HostileRoom, WithNumbersThatAreNoneOrTooLargeIsToldWhatIsAllowed) {
+TEST(HostileRoom, ReportsTheRangeOfInvalidNumbers) {
     for (const std::string number : {"nan", "-nan", "inf", "-inf", "1e300", "99999999999"}) {
         expect_refusals({
             {object("place_m = [0, " + number + ", 0]"),
@@ -170,7 +170,7 @@ TEST(HostileRoom, WithNumbersThatAreNoneOrTooLargeIsToldWhatIsAllowed) {
                      {object("sway_s = 0"), {":3: object[0].sway_s is 0"}}});
 }
 
-TEST(HostileRoom, OfWrongTypesIsToldTheRight) {
+TEST(HostileRoom, NamesTheExpectedType) {
     expect_refusals({
         {object("name = 5"), {":3: object[0].name is 5; allowed is a text in quotes"}},
         {object("place_m = 1"), {":3: object[0].place_m is 1; allowed is a list of 3 numbers, [x, y, z]"}},
@@ -184,14 +184,14 @@ TEST(HostileRoom, OfWrongTypesIsToldTheRight) {
     });
 }
 
-TEST(HostileRoom, OfTextThatIsNoTomlIsToldTheLine) {
+TEST(HostileRoom, ReportsTheLineOfInvalidToml) {
     expect_refusals({{"[[object]]\npack = \n", {":2: is not TOML", "[toml.syntax]"}},
                      {object("size_m = 1\nsize_m = 2"), {":4: is not TOML", "size_m"}},
                      {"# \xff\n", {":1: is not UTF-8"}},
                      {std::string("a\0", 2), {":1: is not UTF-8"}}});
 }
 
-TEST(HostileRoom, NestedDeeplyIsRefused) {
+TEST(HostileRoom, RejectsDeepNesting) {
     for (const std::string open : {"[", "{a="}) {
         std::string deep = "object = ";
         for (int k = 0; k < 100'000; ++k) {
@@ -211,7 +211,7 @@ TEST(HostileRoom, NestedDeeplyIsRefused) {
                      {"[" + numbers + "]\n", {"dots in keys"}}});
 }
 
-TEST(HostileRoom, OfTenThousandObjectsIsTakenAndOfOneMoreRefused) {
+TEST(HostileRoom, AllowsAtMostTenThousandObjects) {
     const std::string lines = "place_m = [0.1, 1.5, 0.25]\nturn_deg = 12.5\nsize_m = 0.35\n"
                               "turns_per_minute = 0.5\nsway_m = [0.1, 0.2, 0.3]\nsway_s = 10.5";
     const Room room = read(objects(10'000, lines));
@@ -221,7 +221,7 @@ TEST(HostileRoom, OfTenThousandObjectsIsTakenAndOfOneMoreRefused) {
     expect_refusals({{objects(10'001, ""), {"object is a list of 10001", "at most 10000 tables"}}});
 }
 
-TEST(HostileRoom, OfAMillionObjectsIsToldHowManyAreAllowed) {
+TEST(HostileRoom, NamesTheLimitsOfSizeAndObjects) {
     std::string text;
     for (int k = 0; k < 1'000'000; ++k) {
         text += "[[object]]\npack=\"a\"\n";
@@ -231,7 +231,7 @@ TEST(HostileRoom, OfAMillionObjectsIsToldHowManyAreAllowed) {
           {"is 20000000 bytes; allowed are at most 8388608 bytes and 10000 objects", "[room.too_large]"}}});
 }
 
-TEST(HostileRoom, OfMoreThan256PacksIsToldHowManyAreAllowed) {
+TEST(HostileRoom, AllowsAtMost256Packs) {
     std::string text;
     for (int k = 0; k < 256; ++k) {
         text += fmt::format("[[object]]\npack = \"{}.fspack\"\n", k);
@@ -250,14 +250,14 @@ protected:
     }
 };
 
-TEST_F(RoomOnDisk, IsReadAndItsPacksAreBesideIt) {
+TEST_F(RoomOnDisk, ResolvesPacksRelativeToTheFile) {
     put("room.toml", "[[object]]\npack = \"cup.fspack\"\n");
     const Result<Room> room = read_room(folder / "room.toml");
     ASSERT_TRUE(room) << room.error().message;
     EXPECT_EQ(room->packs, std::vector<std::filesystem::path>{folder / "cup.fspack"});
 }
 
-TEST_F(RoomOnDisk, ThatIsMissingOrAFolderOrTooLargeIsToldAsSuch) {
+TEST_F(RoomOnDisk, ReportsAMissingFileAFolderAndATooLargeFile) {
     std::filesystem::create_directory(folder / "hall");
     put("large.toml", std::string(std::size_t{9} << 20, '#'));
     const std::string at = folder.string();

@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t speed_parts = 1024;
 constexpr std::int64_t thirty_years_s = 1'000'000'000;
 
-TEST(PlaceInTheRoom, AtTheStartIsThatOfTheFile) {
+TEST(PlaceInTheRoom, EqualsThePlaceInTheFileAtTheStart) {
     const Object object{
         .name = "cup", .place_m = {1.0, 2.0, 0.5}, .turn_deg = 90.0, .size_m = 0.4, .motion = {}};
     const geometry::RigidTransform at = table_from_object(object, 0.0);
@@ -59,7 +59,7 @@ TEST(PlaceInTheRoom, IsAsExactAfterThirtyYearsAsAtTheStart) {
     EXPECT_LT(worst_rad, 4e-15);
 }
 
-TEST(PlaceInTheRoom, SwaysToEitherSideAndComesBackExactly) {
+TEST(PlaceInTheRoom, SwaysToBothSidesAndReturnsExactly) {
     Object object;
     object.place_m = {1.0, 2.0, 3.0};
     object.motion.sway_m = {0.25, -0.5, 0.125};
@@ -76,7 +76,7 @@ TEST(PlaceInTheRoom, SwaysToEitherSideAndComesBackExactly) {
 }
 
 /// The shortest sway that a file may have, of none, at any time: its place, and no NaN.
-TEST(PlaceInTheRoom, OfASwayOfZeroIsItsPlace) {
+TEST(PlaceInTheRoom, StaysConstantWithZeroSway) {
     Object object;
     object.motion.sway_m = {};
     object.motion.sway_s = 0.5;

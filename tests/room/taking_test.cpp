@@ -143,7 +143,7 @@ void run(Taking& taking, const Visit& visit, MonotonicTime until, const Between&
     }
 }
 
-TEST(Taking, AnObjectGlidesIntoThePropAndIsItsArtifactThere) {
+TEST(Taking, MovesAnObjectIntoThePropAndFadesItToItsArtifact) {
     Taking made = taking();
     const Visit visit{{{start, 0}}};
     made.step(visit.at(start));
@@ -175,7 +175,7 @@ TEST(Taking, AnObjectGlidesIntoThePropAndIsItsArtifactThere) {
         0.0, 1e-7);
 }
 
-TEST(Taking, PutBackItStandsExactlyWhereItStood) {
+TEST(Taking, ReturnsAnObjectExactlyToItsPlace) {
     Taking made = taking();
     Visit visit{{{start, 1}, {start + milliseconds(3000), std::nullopt}}};
     made.step(visit.at(start));
@@ -196,7 +196,7 @@ TEST(Taking, PutBackItStandsExactlyWhereItStood) {
 }
 
 /// A jump of place or speed would show as a difference that does not shrink with the step.
-TEST(Taking, NothingJumpsInPlaceOrSpeedWhateverInterrupts) {
+TEST(Taking, MovesWithoutJumpsThroughRandomInterruptions) {
     std::mt19937_64 random(47);
     for (int run_number = 0; run_number < 12; ++run_number) {
         const Visit visit = some_visit(random, 12, milliseconds(6000));
@@ -227,7 +227,7 @@ TEST(Taking, NothingJumpsInPlaceOrSpeedWhateverInterrupts) {
     }
 }
 
-TEST(Taking, NothingDependsOnTheRhythmOfFrames) {
+TEST(Taking, IsIndependentOfFrameTimes) {
     std::mt19937_64 random(5);
     for (int number = 0; number < 60; ++number) {
         const Visit visit = some_visit(random, 9, milliseconds(5000));
@@ -256,7 +256,7 @@ TEST(Taking, NothingDependsOnTheRhythmOfFrames) {
 }
 
 /// On the screen and in the prop, an artifact's shares of light add up to one: it is never gone, and never there twice.
-TEST(Taking, AnArtifactIsAlwaysOnTheScreenAndInThePropTogetherOnce) {
+TEST(Taking, KeepsTheSharesOnScreenAndPropAddingUpToOne) {
     std::mt19937_64 random(11);
     bool some_in_prop = false, some_between = false;
     for (int number = 0; number < 200; ++number) {
@@ -280,7 +280,7 @@ TEST(Taking, AnArtifactIsAlwaysOnTheScreenAndInThePropTogetherOnce) {
     EXPECT_TRUE(some_in_prop && some_between);
 }
 
-TEST(Taking, OfTwoInstancesTheNearerIsTakenAndTheOtherStays) {
+TEST(Taking, TakesTheNearerOfTwoInstances) {
     Taking made = taking();
     const Visit visit{{{start, 2}}};
     made.step(visit.at(start));
@@ -289,7 +289,7 @@ TEST(Taking, OfTwoInstancesTheNearerIsTakenAndTheOtherStays) {
     EXPECT_EQ(find(made, 2), nullptr); // at 2.4 m
 }
 
-TEST(Taking, OfTwoInstancesTheOneThatThePropRestsBeforeIsTaken) {
+TEST(Taking, TakesTheInstanceThatThePropRestsBefore) {
     Taking made = taking();
     TakingInput input = Visit{{{start, 2}}}.at(start);
     input.before = 2;
@@ -304,7 +304,7 @@ TEST(Taking, OfTwoInstancesTheOneThatThePropRestsBeforeIsTaken) {
     EXPECT_EQ(find(made, 3), nullptr);
 }
 
-TEST(Taking, AnArtifactThatIsTakenAgainOnItsWayBackTurnsAround) {
+TEST(Taking, TurnsAroundAnObjectThatIsTakenAgainWhileReturning) {
     Taking made = taking();
     const Visit visit{{{start, 2}, {start + milliseconds(2000), 0}, {start + milliseconds(2600), 2}}};
     MonotonicTime now = start;
@@ -324,7 +324,7 @@ TEST(Taking, AnArtifactThatIsTakenAgainOnItsWayBackTurnsAround) {
 }
 
 /// The pose that the artifact is drawn for goes to the idle place at once, in the dark; an object on its way does not.
-TEST(Taking, APropWhosePoseIsLostDoesNotThrowTheObjectOnItsWay) {
+TEST(Taking, MovesSmoothlyWhenThePropPoseIsLost) {
     Taking made = taking();
     const Visit visit{{{start, 0}}};
     glm::dvec3 before(0.0);
@@ -346,7 +346,7 @@ TEST(Taking, APropWhosePoseIsLostDoesNotThrowTheObjectOnItsWay) {
     EXPECT_NEAR(glm::distance(before, {-0.2, 0.1, 0.0}), 0.0, 1e-9);
 }
 
-TEST(Taking, AnObjectThatThePropRestsBeforeRisesALittleAndSettlesAgain) {
+TEST(Taking, RaisesTheObjectThatThePropRestsBefore) {
     Taking made = taking();
     TakingInput input = Visit{}.at(start);
     input.before = 0;
@@ -364,7 +364,7 @@ TEST(Taking, AnObjectThatThePropRestsBeforeRisesALittleAndSettlesAgain) {
     EXPECT_TRUE(made.poses().empty());
 }
 
-TEST(Taking, ArtifactsWithoutAnObjectAreInThePropAlone) {
+TEST(Taking, ShowsArtifactsWithoutAnObjectOnlyInTheProp) {
     Taking made = taking();
     TakingInput input = Visit{{{start, 2}}}.at(start);
     input.shown = 7;
@@ -376,7 +376,7 @@ TEST(Taking, ArtifactsWithoutAnObjectAreInThePropAlone) {
     EXPECT_EQ(made.prop_share(), 1.0);
 }
 
-TEST(Taking, ASetThatNumbersItsArtifactsAnewDoesNotMoveWhatIsTaken) {
+TEST(Taking, KeepsTheTakenObjectWhenArtifactsAreRenumbered) {
     Taking made = taking();
     const Visit visit{{{start, 1}}};
     made.step(visit.at(start));

@@ -47,7 +47,7 @@ protected:
     }
 };
 
-TEST_F(SafeCommand, IsLinkedWithNothingThatMayBeWhatFailed) {
+TEST_F(SafeCommand, IsLinkedWithoutLibrariesThatMayHaveFailed) {
     const Result<Bytes> listed = run_program({"ldd", program}, "");
     ASSERT_TRUE(listed) << listed.error().message;
     const std::string libraries(as_text(*listed));
@@ -74,7 +74,7 @@ TEST_F(SafeCommand, HasNoReaderOfPacksOrSettings) {
     EXPECT_NE(exhibit.find("load_settings"), std::string::npos);
 }
 
-TEST_F(SafeCommand, DrawsAnySizeAndTheSameTwice) {
+TEST_F(SafeCommand, DrawsAnySizeDeterministically) {
     const image::Image8 landscape = picture({"--size", "1280x800"});
     EXPECT_EQ(landscape.width, 1280);
     EXPECT_EQ(landscape.height, 800);
@@ -85,7 +85,7 @@ TEST_F(SafeCommand, DrawsAnySizeAndTheSameTwice) {
     EXPECT_NE(picture({"--size", "1280x800", "--language", "ja"}).texels, landscape.texels);
 }
 
-TEST_F(SafeCommand, ShowsTheReasonAndGoesOnWithoutOne) {
+TEST_F(SafeCommand, ShowsTheReasonAndToleratesAnUnreadableOne) {
     const auto with = [&](const std::string& reason) {
         return picture({"--size", "640x400", "--reason", reason}).texels;
     };
@@ -139,7 +139,7 @@ TEST_F(SafeCommand, ShowsAllWordsToEachEyeOfAStereoProjector) {
     EXPECT_GT(lit, 500);
 }
 
-TEST_F(SafeCommand, SaysWhatIsWrongWithHowItIsCalled) {
+TEST_F(SafeCommand, RejectsInvalidArguments) {
     for (const std::string size : {"1280", "1280x", "1280x800x2", "0x0", "100000x100", "axb", "-5x800"}) {
         const ProgramEnd end = run({"--png", folder / "out.png", "--size", size});
         EXPECT_EQ(end.status, 2) << size;

@@ -58,7 +58,7 @@ unsigned take_code(std::vector<std::uint32_t>& pixels) {
     return code;
 }
 
-TEST_P(SafeOnCard, EachPictureIsThePageOfItsTextWithANewCode) {
+TEST_P(SafeOnCard, ShowsThePageOfEachTextWithANewCode) {
     const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
     ASSERT_TRUE(screen) << screen.error().message;
     std::set<unsigned> codes;
@@ -77,7 +77,7 @@ TEST_P(SafeOnCard, EachPictureIsThePageOfItsTextWithANewCode) {
     EXPECT_EQ(desk.card.removed_while_shown(), 0);
 }
 
-TEST_P(SafeOnCard, AProjectorThatIsPulledOutAndAnotherThatComesAreTakenUp) {
+TEST_P(SafeOnCard, FollowsUnplugAndReplugOfAProjector) {
     const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
     ASSERT_TRUE(screen) << screen.error().message;
     ASSERT_TRUE((*screen)->show({}).value_or(false));
@@ -98,7 +98,7 @@ TEST_P(SafeOnCard, AProjectorThatIsPulledOutAndAnotherThatComesAreTakenUp) {
     EXPECT_EQ(pixels, page(256, 192, {"Again.", minutes(1)}));
 }
 
-TEST_P(SafeOnCard, AnotherProgramsScreenIsNotTaken) {
+TEST_P(SafeOnCard, RefusesAScreenHeldByAnotherProgram) {
     const int other = kernel.open_file(&desk.card, nullptr, 0);
     ASSERT_EQ(desk.card.become_master(*kernel.file(other)), 0);
     const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
@@ -108,7 +108,7 @@ TEST_P(SafeOnCard, AnotherProgramsScreenIsNotTaken) {
     kernel.close_file(other);
 }
 
-TEST_P(SafeOnCard, ACardWithoutMemorySaysSo) {
+TEST_P(SafeOnCard, ReportsACardWithoutMemory) {
     kernel.fail_always("drmModeCreateDumbBuffer", ENOSYS);
     const auto screen = programs::SafeScreen::open(display::card_path, safe_languages());
     ASSERT_TRUE(screen) << screen.error().message;
@@ -120,7 +120,7 @@ TEST_P(SafeOnCard, ACardWithoutMemorySaysSo) {
 /// If any one call fails once, the picture is on the screen in the end, or a message says why not, and
 /// nothing leaks. A projector that must be lit again is lit a second later by the machine's clock, which this
 /// test does not cover.
-TEST_P(SafeOnCard, AnyCallMayFailOnce) {
+TEST_P(SafeOnCard, RecoversFromOrReportsAnySingleFailedCall) {
     struct Outcome {
         std::vector<std::string> calls;
         std::string wrongs;

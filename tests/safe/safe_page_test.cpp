@@ -27,7 +27,7 @@ struct Size {
 constexpr Size sizes[]{{640, 400},   {1024, 768},  {1280, 800}, {1920, 1200}, {3840, 2160},
                        {1080, 1920}, {2160, 3840}, {800, 1280}, {320, 320},   {4096, 1080}};
 
-TEST(SafePage, LiesWholeInPicturesOfEverySizeAndLeavesTheirMarginBlack) {
+TEST(SafePage, FitsPicturesOfEverySizeAndKeepsTheMarginBlack) {
     SafeText longest = usual;
     longest.reason = std::string(2000, 'W');
     for (const Size& size : sizes) {
@@ -54,7 +54,7 @@ TEST(SafePage, LiesWholeInPicturesOfEverySizeAndLeavesTheirMarginBlack) {
     }
 }
 
-TEST(SafePage, TheSameWordsAreThereInEverySizeAndEachLanguageAddsItsOwn) {
+TEST(SafePage, ContainsTheWordsOfAllLanguagesInEverySize) {
     for (const Size& size : {sizes[0], sizes[4], sizes[5]}) {
         std::size_t alone = 0;
         for (const std::string_view language : safe_languages()) {
@@ -68,7 +68,7 @@ TEST(SafePage, TheSameWordsAreThereInEverySizeAndEachLanguageAddsItsOwn) {
     EXPECT_TRUE(lay_out_safe_page(640, 400, usual, {"tlh"}).letters.empty());
 }
 
-TEST(SafePage, TypeForVisitorsIsLargerThanForTheStaffAndBothCanBeRead) {
+TEST(SafePage, UsesLargerTypeForVisitorsThanForTheStaff) {
     const SafePage page = lay_out_safe_page(1920, 1200, usual, safe_languages());
     std::set<float> sizes_px;
     for (const PlacedLetter& letter : page.letters) {
@@ -80,7 +80,7 @@ TEST(SafePage, TypeForVisitorsIsLargerThanForTheStaffAndBothCanBeRead) {
     EXPECT_GT(*sizes_px.rbegin(), *sizes_px.begin());
 }
 
-TEST(SafePage, DrawnInBandsItIsTheSamePicture) {
+TEST(SafePage, DrawingInBandsGivesTheSamePicture) {
     const SafePage page = lay_out_safe_page(1280, 800, usual, safe_languages());
     const std::vector<std::uint8_t> whole = drawn(page);
     std::vector<std::uint8_t> bands(whole.size());
@@ -91,7 +91,7 @@ TEST(SafePage, DrawnInBandsItIsTheSamePicture) {
     EXPECT_EQ(bands, whole);
 }
 
-TEST(SafeReason, IsItsFirstLineInLettersThatThereAre) {
+TEST(SafeReason, KeepsTheFirstLineAndReplacesUnknownLetters) {
     EXPECT_EQ(shown_reason("No picture for 120 s."), U"No picture for 120 s.");
     EXPECT_EQ(shown_reason("  two\t lines\r\nand more"), U"two lines");
     EXPECT_EQ(shown_reason("Größe: 5 µm – “naïve” Ő, Ž, €"), U"Größe: 5 µm – “naïve” Ő, Ž, €");
@@ -104,7 +104,7 @@ TEST(SafeReason, IsItsFirstLineInLettersThatThereAre) {
     EXPECT_EQ(shown_reason(std::string(1, '\0')), U"\uFFFD");
 }
 
-TEST(SafeReason, TooLongOrOfOneWordItIsBrokenIntoLinesAndCut) {
+TEST(SafeReason, BreaksLongReasonsIntoLinesAndTruncatesThem) {
     const auto letters = [](const std::string& reason) {
         return lay_out_safe_page(1280, 800, {reason, {}}, {"en"}).letters;
     };
@@ -117,7 +117,7 @@ TEST(SafeReason, TooLongOrOfOneWordItIsBrokenIntoLinesAndCut) {
     EXPECT_EQ(letters("\n").size(), letters("").size());
 }
 
-TEST(SafeReason, WhateverItsBytesAreItIsShownInLettersThatThereAre) {
+TEST(SafeReason, RandomBytesYieldOnlyAvailableLetters) {
     std::mt19937 random(7);
     for (int k = 0; k < 3000; ++k) {
         std::string bytes(random() % 400, ' ');
@@ -136,7 +136,7 @@ TEST(SafeReason, WhateverItsBytesAreItIsShownInLettersThatThereAre) {
     }
 }
 
-TEST(SafePage, SaysHowLongTheComputerRuns) {
+TEST(SafePage, ShowsTheUptime) {
     EXPECT_EQ(in_hours(std::chrono::minutes(0)), "0 min");
     EXPECT_EQ(in_hours(std::chrono::minutes(59)), "59 min");
     EXPECT_EQ(in_hours(std::chrono::minutes(60)), "1 h 0 min");

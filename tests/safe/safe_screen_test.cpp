@@ -28,7 +28,7 @@ protected:
     std::size_t descriptors = open_descriptors();
 };
 
-TEST_F(SafeScreenTest, ACardThatIsNotThereIsNamed) {
+TEST_F(SafeScreenTest, NamesAMissingCard) {
     const std::vector<std::pair<std::string, std::string>> cards{
         {"no-such-card", "/dev/dri/no-such-card"}, // by name
         {folder / "none", (folder / "none").string()},
@@ -42,7 +42,7 @@ TEST_F(SafeScreenTest, ACardThatIsNotThereIsNamed) {
     }
 }
 
-TEST_F(SafeScreenTest, WhatIsNoCardIsSaid) {
+TEST_F(SafeScreenTest, ReportsAFileThatIsNoCard) {
     std::ofstream(folder / "file") << "no card";
     for (const std::string& card : {std::string("/dev/null"), (folder / "file").string()}) {
         const auto screen = programs::SafeScreen::open(card, safe_languages());
@@ -53,7 +53,7 @@ TEST_F(SafeScreenTest, WhatIsNoCardIsSaid) {
     }
 }
 
-TEST_F(SafeScreenTest, ACardThatThisUserMayNotOpenIsSaid) {
+TEST_F(SafeScreenTest, ReportsACardWithoutPermission) {
     std::ofstream(folder / "card") << '\n';
     fs::permissions(folder / "card", fs::perms::none);
     const auto opened_by_nobody = [this] {
@@ -70,7 +70,7 @@ TEST_F(SafeScreenTest, ACardThatThisUserMayNotOpenIsSaid) {
     EXPECT_EXIT(opened_by_nobody(), ::testing::ExitedWithCode(0), "");
 }
 
-TEST_F(SafeScreenTest, MemoryThatTheCardDoesNotGiveIsSaidWithItsSize) {
+TEST_F(SafeScreenTest, ReportsTheSizeOfMemoryThatTheCardRefuses) {
     const int file = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     const programs::SafePicture picture{.languages = safe_languages(), .text = {}};
     const auto scanout = programs::SafeScanout::make(file, {1280, 800}, picture);
@@ -80,7 +80,7 @@ TEST_F(SafeScreenTest, MemoryThatTheCardDoesNotGiveIsSaidWithItsSize) {
     EXPECT_NE(scanout.error().message.find("1280 x 800"), std::string::npos) << scanout.error().message;
 }
 
-TEST_F(SafeScreenTest, TheReasonIsTheBeginningOfItsFileOrNothing) {
+TEST_F(SafeScreenTest, ReadsTheReasonsFirst4096BytesOrNothing) {
     const auto with = [this](const std::string& bytes) {
         std::ofstream(folder / "reason", std::ios::binary) << bytes;
         return programs::read_reason(folder / "reason");

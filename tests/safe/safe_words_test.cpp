@@ -123,7 +123,7 @@ double best_correlation(const Coverage& a, const Coverage& b) {
     return best;
 }
 
-TEST(SafeWords, HaveTheLanguagesThatTheExhibitHas) {
+TEST(SafeWords, HaveTheLanguagesOfTheExhibit) {
     std::set<std::string_view> exhibit;
     for (const texts::BuiltinWords& words : texts::builtin_words()) {
         exhibit.insert(words.language);
@@ -133,7 +133,7 @@ TEST(SafeWords, HaveTheLanguagesThatTheExhibitHas) {
     EXPECT_EQ(names.size(), exhibit.size()) << "one is there twice";
 }
 
-TEST(SafeWords, AreInThePictureAsPangoDrawsThem) {
+TEST(SafeWords, MatchPangosDrawing) {
     const toml::table words = toml::parse_file(source_dir() + "/assets_baked/safe/words.toml");
     const Result<texts::Fonts> fonts = texts::Fonts::open();
     ASSERT_TRUE(fonts) << fonts.error().message;
@@ -157,7 +157,7 @@ TEST(SafeWords, AreInThePictureAsPangoDrawsThem) {
 }
 
 /// The measure distinguishes another order of letters, and another text.
-TEST(SafeWords, TheComparisonTellsMirroredAndOtherWordsApart) {
+TEST(SafeWords, ComparisonDetectsMirroredWords) {
     double em_px = 0.0;
     const Coverage hebrew = drawn_by_us("he", em_px);
     Coverage mirrored = hebrew;

@@ -173,7 +173,7 @@ TEST(CellChoice, KeepsTheBudgetInEveryFrameAndChangesEachCellRarely) {
     EXPECT_LE(choice.switches(), 8U); // noise of 5 % is no reason to change
 }
 
-TEST(CellChoice, LeavesABrokenBudgetAtOnceAndReturnsLater) {
+TEST(CellChoice, LowersLevelsAtOnceAndRaisesThemLater) {
     const std::vector<std::size_t> counts{2, 2};
     std::vector<CellOption> options{{1.0, 100.0}, {0.1, 400.0}, {1.0, 100.0}, {0.1, 400.0}};
     CellChoice choice(counts);

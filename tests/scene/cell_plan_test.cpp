@@ -11,7 +11,7 @@
 namespace frustumscreen::scene {
 namespace {
 
-TEST(CellPlan, APoseOfTheBoxMovesThePlacedCell) {
+TEST(CellPlan, SetPoseMovesThePlacedCell) {
     const double metres_per_box = 0.12;
     const glm::dmat4 rest = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, -0.2, 0.3)) *
                             glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(0.6, 0.0, 0.8)) *
@@ -45,7 +45,7 @@ TEST(CellPlan, ATechniqueIsClampedToWhatTheCellHas) {
     EXPECT_EQ(cell_technique("relief96", pack::outline_of(samples::pack())), "auto");
 }
 
-TEST(CellPlan, ACubesPixelsAreAQuarterOfItsSurface) {
+TEST(CellPlan, PixelsOfACubeAreAQuarterOfItsSurface) {
     PlacedLevel cube;
     cube.box_size = glm::dvec3(1.0);
     cube.metres_per_box = 0.02;

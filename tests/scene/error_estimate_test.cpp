@@ -65,7 +65,7 @@ TEST(ErrorEstimate, IsTheBoxErrorInMillimetresOnTheProp) {
     EXPECT_NEAR(error->p95_mm, 6e-3 * 80.0, 1e-3);
 }
 
-TEST(ErrorEstimate, IsThatOfTheEyeThatLooks) {
+TEST(ErrorEstimate, IsInterpolatedForTheViewingEye) {
     Kiosk kiosk;
     const SeenLevel seen{{eye_at({0, 0, 1}), eye_at({0, -1, 0}), eye_at({0, 1, 0})},
                          {seen_of(4e-3F), seen_of(2e-3F), seen_of(1e-3F)}};
@@ -85,7 +85,7 @@ TEST(ErrorEstimate, IsThatOfTheEyeThatLooks) {
     EXPECT_LT(between, 0.31);
 }
 
-TEST(ErrorEstimate, OfALevelWithoutErrorIsAShareOfAPixelAsItLandsOnTheArtifact) {
+TEST(ErrorEstimate, ExactLevelErrsByAShareOfAPixel) {
     Kiosk kiosk;
     const SeenLevel exact{{eye_at({0, 0, 1})}, {pack::SeenError{}}};
     const double near_mm = kiosk.estimate(exact)->mean_mm;
@@ -97,7 +97,7 @@ TEST(ErrorEstimate, OfALevelWithoutErrorIsAShareOfAPixelAsItLandsOnTheArtifact) 
     EXPECT_GT(kiosk.estimate(exact)->mean_mm, 2.0 * near_mm);
 }
 
-TEST(ErrorEstimate, OfNothingIsNone) {
+TEST(ErrorEstimate, IsMissingWhenNothingIsVisible) {
     Kiosk kiosk;
     const SeenLevel seen{{eye_at({0, 0, 1})}, {seen_of(1e-3F)}};
     ASSERT_TRUE(kiosk.estimate(seen));
@@ -113,7 +113,7 @@ TEST(ErrorEstimate, OfNothingIsNone) {
 
 // The projector looks straight down on the top, which gets more pixels for what is seen through it than the
 // side.
-TEST(ErrorEstimate, CountsAPatchByThePixelsOfTheFaceThatItIsSeenThrough) {
+TEST(ErrorEstimate, WeighsAPatchByThePixelsOfItsFace) {
     Kiosk kiosk;
     kiosk.eye = {0.0, -0.3, 0.7};
     pack::SeenEye eye = eye_at({0, -1, 0});
@@ -143,7 +143,7 @@ TEST(ErrorEstimate, CountsAPatchByThePixelsOfTheFaceThatItIsSeenThrough) {
     EXPECT_NEAR(of_top / of_side, top * top / (side * side), 0.1 * of_top / of_side);
 }
 
-TEST(ErrorEstimate, TheWorstIsTheGreatestOfEachFigure) {
+TEST(ErrorEstimate, WorstOfTakesTheMaximumOfEachFigure) {
     const pack::SeenError worst = worst_of(
         {{pack::SeenEye{}, pack::SeenEye{}}, {{1.0F, 2.0F, 3.0F, 4.0F, {}}, {2.0F, 1.0F, 5.0F, 0.0F, {}}}});
     EXPECT_EQ(worst.mean_box, 2.0F);
@@ -152,7 +152,7 @@ TEST(ErrorEstimate, TheWorstIsTheGreatestOfEachFigure) {
     EXPECT_EQ(worst.silhouette_share, 4.0F);
 }
 
-TEST(ErrorEstimate, OfAnOlderPackComesFromItsSurfacesDistance) {
+TEST(ErrorEstimate, FallsBackToTheSurfaceDistanceOfAnOlderPack) {
     pack::PackOutline outline;
     outline.levels.resize(2);
     outline.levels[1].error = {1e-3F, 4e-3F, 1.0F, 0.0F};

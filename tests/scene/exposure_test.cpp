@@ -48,11 +48,11 @@ TEST(Exposure, TwoPerCentOfTheSurfaceMayBeBrighter) {
     EXPECT_NEAR(Pair(0.975, 100, 250).exposure(235), linear(235) / linear(250), 1e-6);
 }
 
-TEST(Exposure, WhatIsCutOutDoesNotCount) {
+TEST(Exposure, IgnoresCutOutTexels) {
     EXPECT_NEAR(Pair(0.5, 100, 250, 0).exposure(235), linear(235) / linear(100), 1e-6);
 }
 
-TEST(Exposure, LeavesAloneWhatItIsToldToOrCannotJudge) {
+TEST(Exposure, IsOneWhenOffOrEmptyAndLimitedForBlack) {
     EXPECT_EQ(Pair(0.5, 100, 50).exposure(0), 1.0);
     EXPECT_EQ(exposure_of({}, {1.0, 1.0, 1.0}, image::Image8(1, 1), 235), 1.0);
     EXPECT_EQ(Pair(0.5, 0, 0).exposure(235), max_exposure) << "black stays black";

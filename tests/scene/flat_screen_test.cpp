@@ -79,7 +79,7 @@ TEST(FlatScreen, MapsEachPointOfItsRectangleToThePixelThatLightsIt) {
     EXPECT_LT(worst_m, 1e-9);
 }
 
-TEST(FlatScreen, IsOneFaceThatLooksAtThePeople) {
+TEST(FlatScreen, HasOneFaceTowardsTheFront) {
     for (const Case& each : cases()) {
         const FlatScreen screen = flat_screen(each.corners, each.width, each.height);
         ASSERT_EQ(screen.surface.faces.size(), 1U);
@@ -101,7 +101,7 @@ TEST(FlatScreen, IsOneFaceThatLooksAtThePeople) {
 }
 
 /// Corners measured to a millimetre make a rectangle that is nowhere farther off than they are.
-TEST(FlatScreen, OfMeasuredCornersIsARectangleWithinTheirErrors) {
+TEST(FlatScreen, FitsARectangleToMeasuredCorners) {
     std::mt19937 random(21);
     std::uniform_real_distribution<double> error_m(-0.001, 0.001);
     for (int k = 0; k < 200; ++k) {

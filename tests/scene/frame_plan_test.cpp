@@ -66,7 +66,7 @@ TEST(FramePlan, HoldsTheFacesThatTheEyeSeesAndTheProjectorLights) {
     EXPECT_EQ(kiosk.faces(), (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
-TEST(FramePlan, AFaceWhosePlaneTheProjectorIsBehindStaysDark) {
+TEST(FramePlan, FaceTurnedAwayFromTheProjectorStaysDark) {
     Kiosk kiosk;
     // The front leans back by 35 / 120: at 1.2 m its plane is at y = -0.08 + 0.35 = 0.27 relative to the
     // prop.
@@ -79,7 +79,7 @@ TEST(FramePlan, AFaceWhosePlaneTheProjectorIsBehindStaysDark) {
 }
 
 /// The lens is low over a triangle's plane, and its distance from the mean of the corners decides.
-TEST(FramePlan, AFaceOfThreeCornersIsLitAsSeenFromItsMiddle) {
+TEST(FramePlan, TriangularFaceIsLitByTheAngleAtItsMiddle) {
     Kiosk kiosk;
     kiosk.prop = solid::example_prop("tetrahedron");
     const geometry::PropFace& face = kiosk.prop.faces[0];
@@ -106,7 +106,7 @@ TEST(FramePlan, AFaceOfThreeCornersIsLitAsSeenFromItsMiddle) {
     EXPECT_EQ(lit, 6);
 }
 
-TEST(FramePlan, TheBrightnessDoesNotJumpWhereAFaceBeginsToShowTheArtifact) {
+TEST(FramePlan, BrightnessIsContinuousWhenAFaceAppears) {
     constexpr double step_m = 1e-4;
     std::mt19937 random(12);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -145,7 +145,7 @@ TEST(FramePlan, TheBrightnessDoesNotJumpWhereAFaceBeginsToShowTheArtifact) {
     EXPECT_LT(most, 0.9 * 1.5 / 0.2 * step_m / 0.7 / 0.5);
 }
 
-TEST(FramePlan, IsEmptyButSoundWhereNothingCanBeSeen) {
+TEST(FramePlan, IsEmptyWhenNothingIsVisible) {
     Kiosk kiosk;
     kiosk.eye = {0.0, 0.0, 0.05}; // inside the prop
     EXPECT_TRUE(kiosk.plan().faces.empty());
@@ -203,7 +203,7 @@ PlacedLevel small_ball(const Kiosk& kiosk) {
     return small;
 }
 
-TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
+TEST(FramePlan, ProjectsPointsAlongTheEyeRayOntoTheFace) {
     Kiosk kiosk;
     kiosk.view.eyes_m = std::span(&kiosk.eye, 1);
     const std::array<Part, 2> parts{Part{kiosk.artifact, {}}, Part{small_ball(kiosk), {}}};
@@ -241,7 +241,7 @@ TEST(FramePlan, PutsPointsOfEachPartWhereTheEyesRayMeetsTheFace) {
 }
 
 /// A triangle just behind the front, half a millimetre below its upper edge: the top shows nothing.
-TEST(FramePlan, AnEdgeIsSoftenedTowardsAFaceThatShowsNothing) {
+TEST(FramePlan, SoftensAnEdgeTowardsAnEmptyFace) {
     Kiosk kiosk;
     kiosk.view.light = LightCompensation{.reference = 0.25, .min_share = 1.0, .hull = {}};
     const glm::dvec3 upper(0.0, kiosk.prop.faces[4].corners[0].y, kiosk.prop.faces[4].corners[0].z);
@@ -268,7 +268,7 @@ TEST(FramePlan, AnEdgeIsSoftenedTowardsAFaceThatShowsNothing) {
     EXPECT_LT(plan.feathers[0].share.y, 0.9F);
 }
 
-TEST(FramePlan, AFadeIsTwoPartsThatShareThePixels) {
+TEST(FramePlan, FadeDrawsTwoPartsWithComplementaryDither) {
     Kiosk kiosk;
     kiosk.view.eyes_m = std::span(&kiosk.eye, 1);
     PlacedLevel other = kiosk.artifact;
@@ -318,7 +318,7 @@ TEST(FramePlan, APartShowsOnItsOwnFacesAlone) {
     }
 }
 
-TEST(FramePlan, ACaptionComesFirstAndThePropInBlackOverIt) {
+TEST(FramePlan, DrawsTheCaptionFirstAndThePropInBlackOverIt) {
     Kiosk kiosk;
     const TablePicture caption{
         {glm::dvec3(0.02, 0, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0.2, -0.1, 0), glm::dvec3(0.02, -0.1, 0)},
@@ -361,7 +361,7 @@ TEST(FramePlan, EachFaceHasItsOwnEye) {
     EXPECT_EQ(plan.faces.size(), 4U); // each side for its own visitor, the top for none
 }
 
-TEST(FramePlan, TheHashTellsPicturesApart) {
+TEST(FramePlan, HashChangesWithThePicture) {
     Kiosk kiosk;
     const std::uint64_t hash = kiosk.plan().hash;
     EXPECT_EQ(kiosk.plan().hash, hash);

@@ -25,7 +25,7 @@ MonotonicTime at_seconds(double seconds) {
 
 constexpr double deadline_ms = 1000.0 / 60.0;
 
-TEST(Tolerance, IsOfWhatTheWorstEyeSeesOnThisPropAndOfTheWorstPlace) {
+TEST(Tolerance, AppliesToTheWorstEyeAndTheWorstPlace) {
     const pack::LevelError error{1e-4F, 3e-4F, 5e-3F, 0.0F};
     const pack::SeenError worst{2e-3F, 9e-3F, 1e-3F, 0.5F}; // on a prop of 120 mm: 0.24 mm, outline 0.12 mm
     EXPECT_TRUE(within_tolerance(error, worst, 120.0, 0.25));
@@ -56,7 +56,7 @@ TEST(Ladder, BeginsWithTheCoarsestLevelThatIsGoodEnoughAndItsSamples) {
     }
 }
 
-TEST(Ladder, OfLevelsThatAreNotGoodEnoughBeginsWithTheFinest) {
+TEST(Ladder, BeginsWithTheFinestLevelWhenNoneSuffices) {
     const std::vector<pack::LevelOutline> levels{level_of(1000), level_of(1200), level_of(4000)};
     const std::vector<QualityLevel> quality_levels = ladder(levels, {false, false, false}, 1);
     ASSERT_EQ(quality_levels.size(),
@@ -67,7 +67,7 @@ TEST(Ladder, OfLevelsThatAreNotGoodEnoughBeginsWithTheFinest) {
     EXPECT_EQ(ladder(levels, {false, false, false}, 0)[0].samples, 1);
 }
 
-TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
+TEST(Ladder, OrdersAReliefByItsError) {
     std::vector<pack::LevelOutline> levels{level_of(1000), level_of(2000)};
     levels[0].error.p95_box = 4e-3F;
     levels[1].error.p95_box = 2e-3F;
@@ -83,7 +83,7 @@ TEST(Ladder, HasAReliefWhereItsErrorPutsIt) {
     EXPECT_EQ(ladder(levels, {false, true}, 4).size(), 6U);
 }
 
-TEST(Ladder, HasAReliefInBothWaysWhereTheGpuMayDrawIt) {
+TEST(Ladder, ContainsAReliefInBothWaysWhenTheGpuMayDrawIt) {
     const std::vector<pack::LevelOutline> levels{level_of(2000)};
     const pack::ReliefOutline relief{384, 5000, 2'000'000, {}, "r"};
     const std::vector<QualityLevel> both = ladder(levels, {true}, 4, relief, true);
@@ -100,7 +100,7 @@ TEST(Ladder, HasAReliefInBothWaysWhereTheGpuMayDrawIt) {
     EXPECT_FALSE(raster.shows_as(drawn));
 }
 
-TEST(Governor, TakesTheWayOfAReliefThatIsQuickerAtItsErrors) {
+TEST(Governor, TakesTheQuickestOfReliefsAndMeshes) {
     const std::vector<QualityLevel> quality_levels{
         {384, 4, true, true}, {384, 4, true, true, true}, {3, 4, true}};
     for (const std::size_t quickest : {0U, 1U, 2U}) {
@@ -111,7 +111,7 @@ TEST(Governor, TakesTheWayOfAReliefThatIsQuickerAtItsErrors) {
     }
 }
 
-TEST(Cost, OfReliefsAndMeshesIsApart) {
+TEST(Cost, FitsReliefsAndMeshesSeparately) {
     // 1 ms and 1 us per triangle; 2 ms and 0.5 us per block; on the GPU 3 ms and 2 us per block.
     const std::vector<QualityLevelTime> times{{1, {1000.0, 0.0}, 2.0},
                                               {1, {3000.0, 0.0}, 4.0},
@@ -126,7 +126,7 @@ TEST(Cost, OfReliefsAndMeshesIsApart) {
     EXPECT_EQ(cost_of({times[0], times[1]}).ms(times[2]), 0.0) << "no relief was measured";
 }
 
-TEST(PixelOnProp, IsThatOfThePlaceNearestToTheProjector) {
+TEST(PixelOnProp, IsMeasuredAtThePlaceNearestToTheProjector) {
     const geometry::Pinhole pinhole{1280, 800, 1920.0, 1900.0, 640.0, 400.0};
     const geometry::RigidTransform projector_from_prop =
         geometry::RigidTransform{{0.0, 1.0, 0.0, 0.0}, {0.1, 0.0, 1.2}}.inverse();
@@ -202,7 +202,7 @@ TEST(Governor, KeepsTheBestQualityLevelWhereItFits) {
     EXPECT_EQ(outcome.quality_share, 1.0);
 }
 
-TEST(Governor, OfSeveralGoodEnoughQualityLevelsTakesTheQuickest) {
+TEST(Governor, TakesTheQuickestOfSufficientQualityLevels) {
     SimulatedGpu gpu;
     gpu.quality_levels[3].enough = true; // the coarse level with all samples
     EXPECT_EQ(gpu.governor().index(), 3U);
@@ -225,7 +225,7 @@ TEST(Governor, TakesTheQuickestWhereNothingFits) {
     EXPECT_EQ(outcome.switches, 1U);
 }
 
-TEST(Governor, RelievesWithinASecondAndAHalfOfALoadStepAndComesBackAfterIt) {
+TEST(Governor, ReactsToALoadStepWithin1500MsAndRecovers) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
     gpu.play(governor, 0.0, 20.0, [](double) { return 1.0; });
@@ -240,7 +240,7 @@ TEST(Governor, RelievesWithinASecondAndAHalfOfALoadStepAndComesBackAfterIt) {
 }
 
 /// The load ends with the change that it caused: at first the model attributes the speed to the new level.
-TEST(Governor, ComesBackWhenTheLoadEndsInTheMomentOfTheChange) {
+TEST(Governor, RecoversWhenTheLoadEndsAtTheChange) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
     gpu.play(governor, 0.0, 100.0, [&](double) { return governor.switches() == 0 ? 3.0 : 1.0; });
@@ -300,7 +300,7 @@ TEST(Governor, NeverChangesMoreOftenThanItsDwellUnderAnyLoad) {
     }
 }
 
-TEST(Governor, AHiccupChangesNothing) {
+TEST(Governor, IgnoresSingleLongFrames) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
     for (int k = 0; k < 6000; ++k) {
@@ -312,7 +312,7 @@ TEST(Governor, AHiccupChangesNothing) {
 
 /// Every level's initial time is wrong by a factor between a quarter and four; the true times grow with the
 /// work. The level with the least work meets the deadline, so none may be late for long.
-TEST(Governor, IsNotLateForGoodAfterAWrongStart) {
+TEST(Governor, RecoversFromWrongInitialTimes) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(-2.0, 2.0);
     double late = 0.0;
@@ -331,7 +331,7 @@ TEST(Governor, IsNotLateForGoodAfterAWrongStart) {
 }
 
 /// Five frames at the start rated the slowest level as the fastest.
-TEST(Governor, DoesNotKeepTheSlowestForTheQuickest) {
+TEST(Governor, LeavesALevelWronglyMeasuredAsTheQuickest) {
     SimulatedGpu gpu;
     for (std::size_t k = 1; k < gpu.times.size(); ++k) {
         gpu.lie[k] = 0.1;
@@ -344,7 +344,7 @@ TEST(Governor, DoesNotKeepTheSlowestForTheQuickest) {
     EXPECT_LT(outcome.late_share, 0.5);
 }
 
-TEST(Governor, SurvivesAndCountsGarbageTimes) {
+TEST(Governor, IgnoresAndCountsInvalidTimes) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
@@ -368,7 +368,7 @@ TEST(Governor, SurvivesAndCountsGarbageTimes) {
     EXPECT_TRUE(std::isfinite(governor.expected_ms()));
 }
 
-TEST(Governor, SurvivesAStartWithoutTimes) {
+TEST(Governor, StartsWithoutTimes) {
     SimulatedGpu gpu;
     for (QualityLevelTime& time : gpu.times) {
         time = {0, {-1.0, std::nan("")}, std::nan("")};
@@ -379,7 +379,7 @@ TEST(Governor, SurvivesAStartWithoutTimes) {
     EXPECT_DOUBLE_EQ(governor.expected_ms(), 3.0);
 }
 
-TEST(Governor, SurvivesATimeThatStandsStillOrGoesBack) {
+TEST(Governor, SurvivesTimesThatDoNotAdvance) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
     std::mt19937 random(1);
@@ -392,7 +392,7 @@ TEST(Governor, SurvivesATimeThatStandsStillOrGoesBack) {
     EXPECT_LT(governor.index(), gpu.quality_levels.size());
 }
 
-TEST(Governor, EntersWithTheLoadThatAnotherArtifactMet) {
+TEST(Governor, EntersWithTheGivenLoad) {
     SimulatedGpu gpu;
     Governor governor = gpu.governor();
     governor.enter(at_seconds(1.0), 3.0);
@@ -433,7 +433,7 @@ TEST(FrameTimeModel, IsStableForEveryStep) {
     }
 }
 
-TEST(FrameTimeModel, ForetellsOtherQualityLevelsAtAnotherPose) {
+TEST(FrameTimeModel, PredictsOtherQualityLevelsAtAnotherPose) {
     SimulatedGpu gpu;
     FrameTimeModel model(gpu.times);
     // The prop is nearer: more of the artifact and 1.8 times the pixels; only level 5 is ever drawn.

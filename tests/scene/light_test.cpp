@@ -23,7 +23,7 @@ struct Lit {
     glm::dvec3 projector() const { return projector_from_prop.inverse().translation; }
 };
 
-TEST(Light, GainTimesReceivedLightIsTheReferenceEverywhereOnAFace) {
+TEST(Light, GainTimesReceivedLightEqualsTheReference) {
     const Lit lit;
     std::mt19937 random(1);
     std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -65,7 +65,7 @@ std::vector<SeenFace> all_faces(const geometry::PropShape& prop, const glm::dvec
     return faces;
 }
 
-TEST(Light, TheReferenceStandsWhereEveryFaceReachesIt) {
+TEST(Light, KeepsTheReferenceThatEveryFaceReaches) {
     const Lit lit;
     double least = 1e9;
     for (const geometry::PropFace& face : lit.prop.faces) {
@@ -90,7 +90,7 @@ TEST(Light, TheWholeArtifactDimsWithAFaceThatTheEyeSeesInFull) {
     EXPECT_EQ(reference(10.0 * reached, 1.0), 10.0 * reached) << "or not at all";
 }
 
-TEST(Light, AFaceThatTheEyeDoesNotSeeCountsForNothing) {
+TEST(Light, IgnoresAFaceThatIsNotVisible) {
     const Lit lit;
     const double aim = 1.2 * dimmest_corner(lit.prop.faces[3], lit.projector());
     const glm::dvec3 from_above(0.0, 0.0, 3.0); // the sides are seen at a sine of 0.28 - 0.03
@@ -196,7 +196,7 @@ struct Pose {
 };
 
 /// The rays decide: the artifact dims for the places through which rays to it enter, and not for dark corners.
-TEST(Light, AKnownArtifactDimsWithThePlacesThroughWhichRaysMeetIt) {
+TEST(Light, KnownArtifactDimsByThePlacesItIsSeenThrough) {
     const settings::Settings shipped;
     const geometry::PropShape prop = settings::make_prop(shipped.prop);
     const BoxArtifact artifact;
@@ -256,7 +256,7 @@ TEST(Light, AKnownArtifactDimsGraduallyAsTheEyeMoves) {
     EXPECT_GT(most, 0.9) << "from above the artifact is seen through the top";
 }
 
-TEST(Light, AFaceFadesOutWhereTheLightGrazesIt) {
+TEST(Light, FaceFadesOutInGrazingLight) {
     const Lit lit;
     const geometry::PropFace& front = lit.prop.faces[3];
     const glm::dvec3 middle = front.middle();

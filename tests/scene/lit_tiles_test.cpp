@@ -8,7 +8,7 @@
 namespace frustumscreen::scene {
 namespace {
 
-TEST(LitTiles, HoldEveryPixelLitOnceAndNoneOutsideThePicture) {
+TEST(LitTiles, CoverEveryLitPixelOnceWithinThePicture) {
     std::mt19937 random(5);
     LitTiles tiles;
     for (int round = 0; round < 50; ++round) {
@@ -46,7 +46,7 @@ TEST(LitTiles, HoldEveryPixelLitOnceAndNoneOutsideThePicture) {
     }
 }
 
-TEST(LitTiles, AreOneRectangleWhereThereWouldBeTooMany) {
+TEST(LitTiles, BecomeOneRectangleWhenThereAreTooMany) {
     LitTiles tiles;
     tiles.begin(1280, 800);
     for (int y = 0; y < 800; y += 32) {
@@ -59,7 +59,7 @@ TEST(LitTiles, AreOneRectangleWhereThereWouldBeTooMany) {
     EXPECT_EQ(tiles.rectangles()[0], tiles.bounds());
 }
 
-TEST(LitTiles, AreLargerInALargePicture) {
+TEST(LitTiles, ContainTheLastPixelOfALargePicture) {
     LitTiles tiles;
     tiles.begin(7680, 4320);
     tiles.light({7679, 4319, 1, 1});

@@ -103,7 +103,7 @@ TEST(OtherProp, AFrustumInTheHandNeedsAPackFromAllAround) {
     EXPECT_TRUE(plan_of(settings_with(frustum), pack_for("cube")));
 }
 
-TEST(OtherProp, IsToldWithTheMeasuredErrorIfItIsShown) {
+TEST(OtherProp, NotesTheErrorOfAPackForAnotherProp) {
     const auto note = [](const settings::PropSettings& prop, const std::string& kind) {
         const pack::PackOutline pack = pack_for(kind);
         const Result<ScenePlan> plan = plan_of(settings_with(prop), pack);

@@ -43,7 +43,7 @@ TEST(PartCost, TheQuickestWayThatIsGoodEnoughIsTaken) {
     EXPECT_DOUBLE_EQ(coarse.cost, 0.1);
 }
 
-TEST(PartCost, WithoutAGoodWayTheFinestLevelIs) {
+TEST(PartCost, TakesTheFinestLevelWhenNoneSuffices) {
     const PartWay way = good_ways(part(), 100.0, 1e-6, costs).value().mesh;
     EXPECT_EQ(way.way.level, 2U);
     EXPECT_FALSE(way.way.enough);
@@ -82,7 +82,7 @@ TEST(PartCost, APartWithoutAReliefDecidesForMeshesUnlessBothPicturesPay) {
     EXPECT_TRUE(both.ways[1].way.relief);
 }
 
-TEST(PartCost, CellsPayFromATenthOn) {
+TEST(PartCost, CellsPayFromATenthSaved) {
     EXPECT_TRUE(cells_pay(10.0, 8.99));
     EXPECT_FALSE(cells_pay(10.0, 9.01));
     EXPECT_FALSE(cells_pay(10.0, std::nan("")));

@@ -48,7 +48,7 @@ PinRequest any_request(std::mt19937& random) {
 }
 
 /// Points of both balls lie in it, and it touches each of them on the far side.
-TEST(WorldBall, AroundTwoIsTheSmallest) {
+TEST(WorldBall, UnionOfTwoIsTheSmallest) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     for (int k = 0; k < 500; ++k) {
@@ -65,7 +65,7 @@ TEST(WorldBall, AroundTwoIsTheSmallest) {
     }
 }
 
-TEST(PinnedView, PinnedAgainIsTheSameAndAllocatesNothing) {
+TEST(PinnedView, RepeatedPinIsEqualAndAllocatesNothing) {
     std::mt19937 random(12);
     PinnedView view = pin_view(any_request(random)).value();
     for (int k = 0; k < 50; ++k) {
@@ -86,7 +86,7 @@ TEST(PinnedView, PinnedAgainIsTheSameAndAllocatesNothing) {
 }
 
 /// Through the lens: the artifact turns about its middle and keeps its place; its size is a factor.
-TEST(PinnedView, TurnAndZoomAreAsExactArithmeticHasThem) {
+TEST(PinnedView, TurnAndZoomMatchExactArithmetic) {
     std::mt19937 random(13);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     for (int k = 0; k < 100; ++k) {
@@ -112,7 +112,7 @@ TEST(PinnedView, TurnAndZoomAreAsExactArithmeticHasThem) {
     }
 }
 
-TEST(PinnedView, IsTheSameTurnedAndScaledWorld) {
+TEST(PinnedView, IsASimilarityTransform) {
     std::mt19937 random(1);
     for (int k = 0; k < 200; ++k) {
         const Drawn drawn(any_request(random));
@@ -182,7 +182,7 @@ TEST(PinnedView, FitsTheWindow) {
 }
 
 /// A prop that is pinned where it stands, by an eye that looks along the ray through both middles, is not turned.
-TEST(PinnedView, AtThePropsOwnPlaceIsNotTurned) {
+TEST(PinnedView, IsNotTurnedAtThePropsOwnPlace) {
     PinRequest request;
     request.prop_middle = {0.0, 0.0, 0.06};
     request.eye_m = {0.0, -0.5, 0.4};
@@ -198,7 +198,7 @@ TEST(PinnedView, AtThePropsOwnPlaceIsNotTurned) {
     }
 }
 
-TEST(PinnedView, TakesAnotherTurnAndSize) {
+TEST(PinnedView, AppliesTurnAndZoomTogether) {
     std::mt19937 random(5);
     const PinRequest request = any_request(random);
     const Drawn plain(request);
@@ -215,7 +215,7 @@ TEST(PinnedView, TakesAnotherTurnAndSize) {
     EXPECT_LT(glm::distance(turned, expected), 1e-12);
 }
 
-TEST(PinnedView, StandsInOddPlaces) {
+TEST(PinnedView, AcceptsExtremeEyesAndRejectsInvalidRequests) {
     std::mt19937 random(6);
     PinRequest request = any_request(random);
     request.eye_m = {request.place.middle_m, 0.6}; // straight above the window
@@ -254,7 +254,7 @@ TEST(WorldBall, HoldsEveryTriangle) {
     EXPECT_FALSE(ball_around(std::span(&nothing, 1)));
 }
 
-TEST(WorldBall, OfAReliefIsThatOfItsMesh) {
+TEST(WorldBall, IsTheSameForAReliefAndItsMesh) {
     const pack::Pack pack = synthetic::rings();
     const std::array parts{
         Part{placed(pack, 0, 0.1), std::nullopt},
@@ -265,7 +265,7 @@ TEST(WorldBall, OfAReliefIsThatOfItsMesh) {
     EXPECT_NEAR(relief.radius, mesh.radius, 0.01);
 }
 
-TEST(WorldBehindAWindow, MayShowOnAllOfIt) {
+TEST(WorldBehindAWindow, ShowsOnAllFaces) {
     const pack::Pack pack = synthetic::rings();
     PlacedLevel level = placed(pack, 0, 0.1);
     level.faces = 4;

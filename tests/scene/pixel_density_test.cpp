@@ -7,7 +7,7 @@ namespace {
 
 // A surface of half the density has a quarter of the pixels of a frontal view: the bake's samples allow for
 // that. Each further halving of the pixels is compensated by twice the samples.
-TEST(SamplesAt, AreAsAskedForDownToHalfTheDensity) {
+TEST(SamplesAt, AreUnchangedDownToHalfTheDensity) {
     for (const double density : {2.0, 1.0, 0.7, 0.5}) {
         for (const int asked : {1, 2, 4, 8, 16}) {
             EXPECT_EQ(samples_at(density, asked), asked) << density;
@@ -32,7 +32,7 @@ TEST(SamplesAt, AreSixteenAtMost) {
     EXPECT_EQ(samples_at(0.49, 16), 16);
 }
 
-TEST(SamplesAt, WhereNothingIsAskedForOrSeenAreAsTheyWere) {
+TEST(SamplesAt, AreUnchangedWithoutRequestOrDensity) {
     EXPECT_EQ(samples_at(0.1, 0), 0);
     EXPECT_EQ(samples_at(0.0, 2), 2);
 }

@@ -42,7 +42,7 @@ glm::dvec2 size_in_picture(const settings::Settings& settings,
     return glm::max(glm::min(high, picture) - glm::max(low, glm::dvec2(0.0)), glm::dvec2(0.0));
 }
 
-TEST(PropOutline, HoldsThePropWhereverItStandsAndHardlyMore) {
+TEST(PropOutline, FitsThePropAnywhereOnTheTable) {
     for (const char* file : {"near.toml", "kiosk.toml"}) {
         const settings::Settings settings = settings_of(file);
         const PixelSize room =
@@ -59,7 +59,7 @@ TEST(PropOutline, HoldsThePropWhereverItStandsAndHardlyMore) {
     }
 }
 
-TEST(PropOutline, OfKnownViewsIsTheirLargest) {
+TEST(PropOutline, IsTheLargestOfKnownViews) {
     const settings::Settings settings = settings_of("kiosk.toml");
     std::mt19937 random(4);
     std::vector<KnownView> views;
@@ -74,12 +74,12 @@ TEST(PropOutline, OfKnownViewsIsTheirLargest) {
     EXPECT_NEAR(room.height, largest.y + 16.0, 4.0);
 }
 
-TEST(PropOutline, OfAPropInTheHandIsThePicture) {
+TEST(PropOutline, HeldPropNeedsTheWholePicture) {
     const settings::Settings settings = settings_of("cube.toml");
     EXPECT_FALSE(largest_outline(settings, settings.projector.pinhole, visibility_of(settings)));
 }
 
-TEST(PropOutline, OfTwoNeedsHoldsBoth) {
+TEST(PropOutline, UnionFitsBothNeeds) {
     const auto needs = [](int samples, std::optional<PixelSize> outline) {
         RenderNeeds needs;
         needs.samples = samples;
@@ -96,7 +96,7 @@ TEST(PropOutline, OfTwoNeedsHoldsBoth) {
 }
 
 /// Headroom for eight samples in the whole picture would take 65.5 and 147.5 MB.
-TEST(PropOutline, KeepsTheMemoryOfSamplesToWhatThePropTakes) {
+TEST(PropOutline, LimitsTheMemoryOfSamplesToTheProp) {
     for (const auto& [file, max_mb] : {std::pair("near.toml", 18.0), std::pair("kiosk.toml", 35.0)}) {
         const settings::Settings settings = settings_of(file);
         const geometry::Pinhole& pinhole = settings.projector.pinhole;

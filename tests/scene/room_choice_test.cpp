@@ -32,7 +32,7 @@ struct Objects {
     }
 };
 
-TEST(RoomChoice, IsTheQuickestThatIsGoodEnough) {
+TEST(RoomChoice, TakesTheQuickestSufficientOption) {
     Objects objects;
     objects.add({{2.0, 1.0}, {0.4, 5.0}, {0.3, 4.0}, {0.1, 20.0}});
     objects.add({{2.0, 1.0}, {0.9, 5.0}}); // none is enough
@@ -65,7 +65,7 @@ Objects random_objects(unsigned seed, std::size_t count) {
     return objects;
 }
 
-TEST(RoomChoice, ShortOfTimeTheLeastErrorIsAddedThatExhaustionFinds) {
+TEST(RoomChoice, MatchesExhaustiveSearchWhenShortOfTime) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const Objects objects = random_objects(seed, 6);
         RoomChoice choice(6);
@@ -100,7 +100,7 @@ TEST(RoomChoice, ShortOfTimeTheLeastErrorIsAddedThatExhaustionFinds) {
     }
 }
 
-TEST(RoomChoice, AnEyeThatSwaysAtALimitChangesNothingTwice) {
+TEST(RoomChoice, DoesNotOscillateForASwayingEye) {
     RoomChoice choice(1);
     int changes = 0;
     std::uint32_t before = RoomChoice::none;
@@ -115,7 +115,7 @@ TEST(RoomChoice, AnEyeThatSwaysAtALimitChangesNothingTwice) {
     EXPECT_LE(changes, 1);
 }
 
-TEST(RoomChoice, ABudgetThatSwaysChangesLittleAndItsReturnBringsAllBack) {
+TEST(RoomChoice, ChangesLittleForASwayingBudgetAndRecovers) {
     const Objects objects = random_objects(3, 40);
     RoomChoice choice(40);
     choice.choose(0.0, objects.seen, objects.options, 0.3, 1e9);

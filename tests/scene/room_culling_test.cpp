@@ -149,7 +149,7 @@ double volume_of(const BoxCorners& box) {
     return std::abs(glm::dot(box[1] - box[0], glm::cross(box[2] - box[0], box[4] - box[0])));
 }
 
-TEST(InnerBox, OfABoxIsAlmostAllOfItHoweverItIsTurned) {
+TEST(InnerBox, FillsMostOfABoxAtAnyRotation) {
     for (const double turn : {0.0, 15.0, 45.0}) {
         synthetic::Soup soup;
         synthetic::add_box(soup, {-1.0, -0.05, 0.0}, {1.0, 0.05, 0.7});
@@ -182,7 +182,7 @@ TEST(InnerBox, LiesInsideTheTubeOfARing) {
     }
 }
 
-TEST(InnerBox, OfAHollowSolidLiesInItsWall) {
+TEST(InnerBox, LiesInTheFloorOfAHollowSolid) {
     synthetic::Soup soup;
     synthetic::add_box(soup, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
     synthetic::Soup cavity;
@@ -200,7 +200,7 @@ TEST(InnerBox, OfAHollowSolidLiesInItsWall) {
     }
 }
 
-TEST(InnerBox, AMeshWithAHoleOrInsideOutHasNone) {
+TEST(InnerBox, IsMissingForOpenOrInvertedMeshes) {
     synthetic::Soup soup;
     synthetic::add_box(soup, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
     std::vector<std::uint32_t> open(soup.indices.begin(), soup.indices.end() - 3);

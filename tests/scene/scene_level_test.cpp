@@ -116,7 +116,7 @@ TEST(SceneLevel, KeepsClustersThatCoverItsIndicesAndVerticesThatAreUsed) {
     EXPECT_EQ(*used.rbegin() + 1, level.mesh.vertices.size());
 }
 
-TEST(SceneLevel, OfARecordingOrWithoutCullKindsIsWhole) {
+TEST(SceneLevel, IsCompleteForARecordingOrWithoutCullKinds) {
     settings::Settings settings = settings::steep_table();
     const pack::Pack pack = placed_rings();
     settings.tracker.kind = settings::TrackerKind::Replay;
@@ -126,7 +126,7 @@ TEST(SceneLevel, OfARecordingOrWithoutCullKindsIsWhole) {
     EXPECT_EQ(scene::scene_level(pack, 0, plan).mesh.indices, pack.levels[0].indices);
 }
 
-TEST(MipLevel, IsTheFirstOfWhichNoSampleSkipsATexel) {
+TEST(MipLevel, IsTheFinestWithoutSkippedTexels) {
     EXPECT_EQ(scene::mip_level(100.0, 200.0), 0);
     EXPECT_EQ(scene::mip_level(200.0, 200.0), 0);
     EXPECT_EQ(scene::mip_level(201.0, 200.0), 1);

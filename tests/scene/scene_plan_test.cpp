@@ -69,7 +69,7 @@ bool has_captions(const ScenePlan& plan) {
     return plan.needs.draws.count({ShaderKey::Pass::TablePicture}) > 0;
 }
 
-TEST(ScenePlan, ACubeShowsAllSixFacesInTheHandAndNotItsBottomOnTheTable) {
+TEST(ScenePlan, HeldCubeShowsSixFacesAndStandingCubeFive) {
     settings::Settings settings = settings::steep_table();
     settings.prop = settings::cube_settings();
     pack::PackOutline pack = outline();
@@ -82,7 +82,7 @@ TEST(ScenePlan, ACubeShowsAllSixFacesInTheHandAndNotItsBottomOnTheTable) {
     EXPECT_TRUE(leaves_out(standing, UnseenFaces, "face -Z"));
 }
 
-TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
+TEST(ScenePlan, ReadsOnlyTheLevelOfTheTechnique) {
     const settings::Settings settings = settings::steep_table();
     SceneRequest asked = request(settings);
     for (const auto& [technique, level] :
@@ -101,7 +101,7 @@ TEST(ScenePlan, ReadsTheLevelOfATechniqueAlone) {
     EXPECT_EQ(plan_scene(settings, outline(), asked).value().levels, std::vector<std::uint32_t>{2U});
 }
 
-TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
+TEST(ScenePlan, ReadsOnlyTheReliefOfTheTechnique) {
     const settings::Settings settings =
         settings::steep_table(); // a pixel is 0.56 mm on the prop, the artifact 120 mm: 214 pixels
     const pack::PackOutline pack = outline_with_reliefs({48, 96, 192, 384}, 1e-4F);
@@ -137,7 +137,7 @@ TEST(ScenePlan, ReadsTheReliefOfATechniqueAlone) {
         << "the finest, where none is fine enough";
 }
 
-TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
+TEST(ScenePlan, GpuReliefNeedsNoRasterizerAndRoomOnTheGpu) {
     const settings::Settings settings = settings::steep_table();
     const pack::PackOutline pack = outline_with_reliefs({96, 192}, 1e-4F);
     SceneRequest asked = request(settings);
@@ -177,7 +177,7 @@ TEST(ScenePlan, AReliefThatTheGpuDrawsNeedsNoCastAndSamplesAsAMesh) {
     EXPECT_EQ(ways_on_gpu(), 0) << "it has no room for it, and the other ways stay";
 }
 
-TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
+TEST(ScenePlan, ReadsTheReliefThatMatchesThePixelSize) {
     const settings::Settings settings = settings::steep_table();
     const ScenePlan plan =
         plan_scene(settings, outline_with_reliefs({96, 192, 384}, 1e-4F), request(settings)).value();
@@ -202,7 +202,7 @@ TEST(ScenePlan, TheGovernorMayPickTheReliefWhoseTexelIsAPixel) {
     EXPECT_FALSE(plan_scene(settings, damaged, request(settings)));
 }
 
-TEST(ScenePlan, ReadsWhatTheGovernorMayPickAndNothingFiner) {
+TEST(ScenePlan, ReadsOnlyTheLevelsThatTheGovernorMayPick) {
     const settings::Settings settings = settings::
         steep_table(); // half a pixel is 0.28 mm: level 1 is within it, off by 0.16 mm along the rays
     const ScenePlan plan = plan_scene(settings, outline(), request(settings)).value();
@@ -258,7 +258,7 @@ TEST(ScenePlan, HasCaptionsOnlyWhereTheyCanShow) {
     EXPECT_TRUE(plan_scene(settings, outline(), asked).value().captions.empty());
 }
 
-TEST(ScenePlan, NamesTheShadersThatAreDrawnWith) {
+TEST(ScenePlan, ListsTheShadersInUse) {
     const settings::Settings settings = settings::steep_table();
     SceneRequest asked = request(settings);
     asked.technique = "level0";

@@ -34,7 +34,7 @@ template <typename Point> double drawn_reach(const glm::dvec3& n, int draws, Poi
     return most;
 }
 
-TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
+TEST(Visibility, TrackedEyeReachesToTheEdgeOfItsZone) {
     settings::Settings settings = settings::steep_table();
     settings.eye.default_m = {0.0, -0.3, 0.4}; // inside the zone for every pose of the prop
     const Visibility visibility = visibility_of(settings);
@@ -56,7 +56,7 @@ TEST(Visibility, OfATrackedEyeReachesAsFarAsItsZoneAndHardlyFarther) {
     EXPECT_TRUE(visibility.views.empty());
 }
 
-TEST(Visibility, OfAFixedEyeHoldsEveryPlaceAndYawOfTheProp) {
+TEST(Visibility, FixedEyeCoversEveryPlaceAndYawOfTheProp) {
     settings::Settings settings = settings::steep_table();
     settings.eye.tracked = false;
     settings.eye.default_m = {0.1, -0.5, 0.45};
@@ -79,7 +79,7 @@ TEST(Visibility, OfAFixedEyeHoldsEveryPlaceAndYawOfTheProp) {
     }
 }
 
-TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
+TEST(Visibility, FixedViewerAndFixedPropGiveOneView) {
     settings::Settings settings = settings::steep_table();
     settings.eye.tracked = false;
     settings.tracker.kind = settings::TrackerKind::None;
@@ -90,7 +90,7 @@ TEST(Visibility, OfAFixedViewerAndAFixedPropIsOneView) {
     EXPECT_EQ(visibility.lens.reach({0.0, 0.0, 1.0}), 1.2);
 }
 
-TEST(Visibility, OfARecordingOrADeviceProvesNothing) {
+TEST(Visibility, RecordingOrDeviceIsUnbounded) {
     for (const settings::TrackerKind kind :
          {settings::TrackerKind::Replay, settings::TrackerKind::Usb, settings::TrackerKind::SpaceMouse}) {
         settings::Settings settings = settings::steep_table();

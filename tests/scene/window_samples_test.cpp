@@ -33,7 +33,7 @@ TEST(WindowSamples, StayWhileFramesAreInTime) {
     EXPECT_FALSE(frames.samples.few());
 }
 
-TEST(WindowSamples, AreFewSoonAfterFramesMissTheirDeadlineAndManyWhenThereIsTime) {
+TEST(WindowSamples, DropAfterMissedDeadlinesAndRecover) {
     Frames frames;
     (void)frames.run(seconds(5), 8.0, 8.0);
     EXPECT_EQ(frames.run(seconds(1), 30.0, 12.0), 1);
@@ -51,7 +51,7 @@ TEST(WindowSamples, ASingleLongFrameChangesNothing) {
     EXPECT_EQ(frames.run(seconds(5), 8.0, 8.0), 0);
 }
 
-TEST(WindowSamples, TryMoreAndMoreSeldomWhatDoesNotFit) {
+TEST(WindowSamples, RetryAtGrowingIntervals) {
     Frames frames;
     const int early = frames.run(seconds(60), 40.0, 4.0);
     EXPECT_GE(early, 5);
@@ -59,7 +59,7 @@ TEST(WindowSamples, TryMoreAndMoreSeldomWhatDoesNotFit) {
     EXPECT_LE(frames.run(seconds(240), 40.0, 4.0), 10) << "twice a minute at most";
 }
 
-TEST(WindowSamples, WithoutWindowsNoFrameCounts) {
+TEST(WindowSamples, IgnoreFramesWithoutWindows) {
     Frames frames;
     EXPECT_EQ(frames.run(seconds(10), 90.0, 90.0, false), 0);
 }

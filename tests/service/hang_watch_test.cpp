@@ -26,7 +26,7 @@ std::vector<News> news_in(HangPolicy& policy, MonotonicTime& now, Nanoseconds le
     return all;
 }
 
-TEST(HangPolicy, AHangIsToldOnceAfterTheTimeoutAndSoIsItsEnd) {
+TEST(HangPolicy, ReportsAHangAndItsEndOnce) {
     HangPolicy policy(seconds(4));
     MonotonicTime now{seconds(100)};
     EXPECT_TRUE(news_in(policy, now, milliseconds(3900), MonotonicTime(seconds(100))).empty());
@@ -35,7 +35,7 @@ TEST(HangPolicy, AHangIsToldOnceAfterTheTimeoutAndSoIsItsEnd) {
     EXPECT_EQ(news_in(policy, now, seconds(5), now), std::vector{News::Hangs});
 }
 
-TEST(HangPolicy, AThreadThatIsHeardOfIsNeverToldOf) {
+TEST(HangPolicy, ReportsNothingForALivingThread) {
     HangPolicy policy(seconds(4));
     MonotonicTime now{seconds(100)};
     for (int second = 0; second < 60; ++second) {
@@ -43,7 +43,7 @@ TEST(HangPolicy, AThreadThatIsHeardOfIsNeverToldOf) {
     }
 }
 
-TEST(HangPolicy, AMachineThatStoodStillIsNoHang) {
+TEST(HangPolicy, SuspendedMachineIsNoHang) {
     HangPolicy policy(seconds(4));
     MonotonicTime now{seconds(100)};
     EXPECT_TRUE(news_in(policy, now, seconds(1), now).empty());
@@ -53,7 +53,7 @@ TEST(HangPolicy, AMachineThatStoodStillIsNoHang) {
     EXPECT_EQ(news_in(policy, now, seconds(1), heard), std::vector{News::Hangs});
 }
 
-TEST(HangWatch, SaysWhatTheThreadWasDoingAndThatItIsHeardAgain) {
+TEST(HangWatch, ReportsTheHangingActivityAndItsEnd) {
     Latest<Sentence> told;
     HangWatch watch(milliseconds(40), [&told](std::optional<const char*> doing) {
         told.put(Sentence(doing ? *doing : "it is heard again"));

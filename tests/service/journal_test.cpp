@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Journal, IsKnownByDeviceAndInode) {
+TEST(Journal, IsRecognizedByDeviceAndInode) {
     struct stat file {};
     file.st_dev = 9;
     file.st_ino = 1234;
@@ -29,14 +29,14 @@ TEST(Journal, IsKnownByDeviceAndInode) {
     EXPECT_FALSE(is_journal(nullptr, file));
 }
 
-TEST(Journal, GoesToStandardErrorAsOneLineWhereThereIsNone) {
+TEST(Journal, PrintsOneLineToStandardErrorWithoutAJournal) {
     ::unsetenv("JOURNAL_STREAM");
     ::testing::internal::CaptureStderr();
     Journal("frustumscreen").note(LogPriority::Info, "tracker: it runs", {{"DEVICE", "tracker"}});
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "frustumscreen: tracker: it runs\n");
 }
 
-TEST(Journal, OutlivesAStandardErrorThatTakesNothing) {
+TEST(Journal, SurvivesAFullStandardError) {
     ::unsetenv("JOURNAL_STREAM");
     const int before = ::dup(STDERR_FILENO);
     const int full = ::open("/dev/full", O_WRONLY);
@@ -84,7 +84,7 @@ private:
     bool bound_ = false;
 };
 
-TEST(Journal, GetsFieldsWhereStandardErrorIsTheJournal) {
+TEST(Journal, SendsFieldsIfStandardErrorIsTheJournal) {
     const JournalSocket socket;
     if (!socket.bound()) {
         GTEST_SKIP() << "needs a machine without a journal, and the right to stand in for it";

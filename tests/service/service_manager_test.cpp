@@ -19,7 +19,7 @@ protected:
     NotifySocket socket;
 };
 
-TEST_F(ServiceManagerTest, IsToldInItsOwnWords) {
+TEST_F(ServiceManagerTest, SendsTheMessagesOfTheNotifyProtocol) {
     const ServiceManager manager;
     EXPECT_TRUE(manager.listens());
     manager.still_starting(std::chrono::milliseconds(1500));
@@ -32,7 +32,7 @@ TEST_F(ServiceManagerTest, IsToldInItsOwnWords) {
     EXPECT_EQ(socket.receive(), "STOPPING=1");
 }
 
-TEST_F(ServiceManagerTest, HearsOfAStatusOnlyWhenItChanges) {
+TEST_F(ServiceManagerTest, SendsAStatusOnlyWhenItChanges) {
     ServiceManager manager;
     manager.status(Sentence("the cat"));
     EXPECT_EQ(socket.receive(), "STATUS=the cat");
@@ -42,7 +42,7 @@ TEST_F(ServiceManagerTest, HearsOfAStatusOnlyWhenItChanges) {
     EXPECT_EQ(socket.receive(), "STATUS=the dog READY=1"); // an external title must stay one line
 }
 
-TEST_F(ServiceManagerTest, HearsAGreekTitleThatIsTooLongAsWholeCharacters) {
+TEST_F(ServiceManagerTest, TruncatesAStatusBetweenCharacters) {
     ServiceManager manager;
     std::string title = "shows ";
     for (int k = 0; k < 40; ++k) {
@@ -54,7 +54,7 @@ TEST_F(ServiceManagerTest, HearsAGreekTitleThatIsTooLongAsWholeCharacters) {
     EXPECT_EQ(socket.receive(), "STATUS=" + title.substr(0, 240));
 }
 
-TEST_F(ServiceManagerTest, AsksForTheWatchdogOfThisProcessAlone) {
+TEST_F(ServiceManagerTest, WatchdogIntervalAppliesToThisProcessOnly) {
     EXPECT_EQ(ServiceManager().watchdog_interval(), std::nullopt);
     ::setenv("WATCHDOG_USEC", "5000000", 1);
     EXPECT_EQ(ServiceManager().watchdog_interval(), Nanoseconds(std::chrono::seconds(5)));
@@ -64,7 +64,7 @@ TEST_F(ServiceManagerTest, AsksForTheWatchdogOfThisProcessAlone) {
     EXPECT_EQ(ServiceManager().watchdog_interval(), std::nullopt);
 }
 
-TEST(ServiceManager, IsNotMissed) {
+TEST(ServiceManager, DoesNothingWithoutASocket) {
     ::unsetenv("NOTIFY_SOCKET");
     ServiceManager manager;
     EXPECT_FALSE(manager.listens());

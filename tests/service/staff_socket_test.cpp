@@ -74,7 +74,7 @@ protected:
     std::atomic<int> questions{0};
 };
 
-TEST_F(StaffSocketTest, AnswersEachQuestionInItsFrame) {
+TEST_F(StaffSocketTest, AnswersQuestionsWithStatusAndLength) {
     open();
     EXPECT_EQ(answer_to("hello\n"), "ok 1\n*");
     EXPECT_EQ(answer_to("what\n"), "no no?such question\n");
@@ -88,7 +88,7 @@ TEST_F(StaffSocketTest, AnswersEachQuestionInItsFrame) {
     EXPECT_FALSE(ask_staff_socket(path, "big", std::size_t{7} << 20, seconds(60)));
 }
 
-TEST_F(StaffSocketTest, ItsFileIsForItsOwnerAndItsFoldersGroup) {
+TEST_F(StaffSocketTest, FileIsAccessibleToOwnerAndFolderGroupOnly) {
     constexpr gid_t other_group = 54321;
     const bool may_give = ::chown(folder.c_str(), static_cast<uid_t>(-1), other_group) == 0;
     ASSERT_EQ(::chmod(folder.c_str(), may_give ? 02750 : 0750), 0);
@@ -104,7 +104,7 @@ TEST_F(StaffSocketTest, ItsFileIsForItsOwnerAndItsFoldersGroup) {
     EXPECT_FALSE(fs::exists(path));
 }
 
-TEST_F(StaffSocketTest, SomebodyElseIsRefusedWhateverTheFilesModeIs) {
+TEST_F(StaffSocketTest, RejectsOtherUsersRegardlessOfTheFileMode) {
     if (::geteuid() != 0) {
         GTEST_SKIP() << "only root can change the user";
     }
@@ -129,7 +129,7 @@ TEST_F(StaffSocketTest, SomebodyElseIsRefusedWhateverTheFilesModeIs) {
     EXPECT_EQ(questions, 1);
 }
 
-TEST(StaffSocket, WhoIsStaff) {
+TEST(StaffSocket, RootOwnerAndGroupMembersAreStaff) {
     const gid_t groups[] = {7, 8, 900};
     EXPECT_TRUE(is_staff({0, 5, {}}, 100, 900));
     EXPECT_TRUE(is_staff({100, 5, {}}, 100, 900));
@@ -138,7 +138,7 @@ TEST(StaffSocket, WhoIsStaff) {
     EXPECT_FALSE(is_staff({101, 100, groups}, 100, 901));
 }
 
-TEST_F(StaffSocketTest, WhatIsNoQuestionIsRefusedAndAskedOfNobody) {
+TEST_F(StaffSocketTest, RejectsMalformedQuestionsWithoutAskingTheHandler) {
     open();
     EXPECT_EQ(answer_to(std::string(64, 'x')), "no a question has at most 64 bytes\n");
     for (const std::string& sent :
@@ -153,7 +153,7 @@ TEST_F(StaffSocketTest, WhatIsNoQuestionIsRefusedAndAskedOfNobody) {
     EXPECT_TRUE(still_answers());
 }
 
-TEST_F(StaffSocketTest, AClientThatStallsIsLeftBehind) {
+TEST_F(StaffSocketTest, DropsStalledClients) {
     open();
     const Descriptor silent = connected();
     const Descriptor half = connected();
@@ -167,7 +167,7 @@ TEST_F(StaffSocketTest, AClientThatStallsIsLeftBehind) {
     EXPECT_LT(rest(deaf).size(), std::size_t{8} << 20);
 }
 
-TEST_F(StaffSocketTest, AClientThatIsSlowButDoesNotStallGetsTheWholeAnswer) {
+TEST_F(StaffSocketTest, SlowClientGetsTheWholeAnswer) {
     open();
     std::vector<char> part(std::size_t{1} << 20);
     std::size_t taken = 0;
@@ -199,7 +199,7 @@ TEST_F(StaffSocketTest, AClientThatIsSlowButDoesNotStallGetsTheWholeAnswer) {
     EXPECT_GT(took, StaffSocket::max_stall); // or this test shows nothing
 }
 
-TEST_F(StaffSocketTest, ClientsThatHangUpAtOnceAreTakenSlowly) {
+TEST_F(StaffSocketTest, LimitsTheRateOfConnections) {
     open();
     const MonotonicTime end = monotonic_now() + seconds(1);
     const UnixAddress address = *UnixAddress::of(path);
@@ -215,7 +215,7 @@ TEST_F(StaffSocketTest, ClientsThatHangUpAtOnceAreTakenSlowly) {
     EXPECT_TRUE(still_answers());
 }
 
-TEST_F(StaffSocketTest, ASocketThatAKilledExhibitLeftIsTakenOverAndNothingElseIs) {
+TEST_F(StaffSocketTest, ReplacesAStaleSocketButNothingElse) {
     {
         const Descriptor left(::socket(AF_UNIX, SOCK_STREAM, 0));
         const UnixAddress address = *UnixAddress::of(path);
@@ -235,7 +235,7 @@ TEST_F(StaffSocketTest, ASocketThatAKilledExhibitLeftIsTakenOverAndNothingElseIs
     EXPECT_FALSE(StaffSocket::open(folder / "none" / "s", nobody));
 }
 
-TEST_F(StaffSocketTest, WhoAsksAnExhibitThatHangsIsToldInTime) {
+TEST_F(StaffSocketTest, AskingAHangingExhibitTimesOut) {
     const Descriptor hanging(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const UnixAddress address = *UnixAddress::of(path);
     ASSERT_EQ(::bind(hanging.number(), address.get(), address.size()), 0);

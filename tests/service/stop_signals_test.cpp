@@ -25,7 +25,7 @@ int ending_of(const std::function<void()>& work) {
     return status;
 }
 
-TEST(StopSignals, WaitInLineForWhoLooks) {
+TEST(StopSignals, AreHeldUntilTheyArePolled) {
     const int status = ending_of([] {
         const StopSignals signals;
         if (signals.received()) {
@@ -44,7 +44,7 @@ TEST(StopSignals, WaitInLineForWhoLooks) {
     EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
-TEST(StopSignals, EndTheProcessAtOnceWhileThereIsNothingToPutAway) {
+TEST(StopSignals, EndTheProcessAtOnceWithinAtOnce) {
     const int status = ending_of([] {
         const StopSignals signals;
         const StopSignals::AtOnce at_once(signals);
@@ -62,7 +62,7 @@ TEST(StopSignals, EndTheProcessAtOnceWhileThereIsNothingToPutAway) {
     EXPECT_EQ(WEXITSTATUS(after), 7);
 }
 
-TEST(StopSignals, AreLeftToTheExhibitsThreadByOneThatWasStartedWhileTheyEndAtOnce) {
+TEST(StopSignals, AreNotTakenByAThreadStartedWithinAtOnce) {
     const int status = ending_of([] {
         const StopSignals signals;
         std::jthread device;
@@ -89,7 +89,7 @@ TEST(StopSignals, AreLeftToTheExhibitsThreadByOneThatWasStartedWhileTheyEndAtOnc
     EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
-TEST(StopSignals, AThreadThatHangsDoesNotHoldTheEnd) {
+TEST(StopSignals, HangingThreadDoesNotDelayTheExit) {
     const int status = ending_of([] {
         const StopSignals signals;
         ::close(STDERR_FILENO);

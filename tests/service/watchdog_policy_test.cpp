@@ -58,7 +58,7 @@ struct Exhibit {
     }
 };
 
-TEST(WatchdogPolicy, FeedsAtRestAndInMotionWellWithinTheInterval) {
+TEST(WatchdogPolicy, FeedsWithinTheIntervalAtAnyFrameRate) {
     for (const milliseconds period :
          {milliseconds(1), milliseconds(16), milliseconds(300), milliseconds(1000)}) {
         Exhibit exhibit;
@@ -69,7 +69,7 @@ TEST(WatchdogPolicy, FeedsAtRestAndInMotionWellWithinTheInterval) {
     }
 }
 
-TEST(WatchdogPolicy, IsFedThreeTimesInAShortInterval) {
+TEST(WatchdogPolicy, FeedsThreeTimesInAShortInterval) {
     Exhibit exhibit;
     exhibit.policy = WatchdogPolicy(milliseconds(900), start);
     exhibit.period = milliseconds(16);
@@ -86,7 +86,7 @@ TEST(WatchdogPolicy, ReadsBackAFewTimesASecondNotInEveryFrame) {
     EXPECT_GE(exhibit.read, 60);
 }
 
-TEST(WatchdogPolicy, StarvesAnExhibitThatPresentsNothing) {
+TEST(WatchdogPolicy, StopsFeedingIfNothingIsPresented) {
     Exhibit exhibit;
     exhibit.run(seconds(10));
     exhibit.presents = false;
@@ -99,7 +99,7 @@ TEST(WatchdogPolicy, StarvesAnExhibitThatPresentsNothing) {
     EXPECT_EQ(exhibit.health(), Health::Well);
 }
 
-TEST(WatchdogPolicy, IsFedWhileTheProjectorIsDarkOnPurpose) {
+TEST(WatchdogPolicy, FeedsWhileAsleep) {
     Exhibit exhibit;
     exhibit.run(seconds(10));
     exhibit.presents = false;
@@ -117,7 +117,7 @@ TEST(WatchdogPolicy, IsFedWhileTheProjectorIsDarkOnPurpose) {
     EXPECT_EQ(exhibit.health(), Health::NoPicture);
 }
 
-TEST(WatchdogPolicy, StarvesAPictureThatStaysThoughItIsPresented) {
+TEST(WatchdogPolicy, StopsFeedingForAFrozenPicture) {
     for (const bool blank : {false, true}) {
         Exhibit exhibit;
         exhibit.period = milliseconds(16);
@@ -130,7 +130,7 @@ TEST(WatchdogPolicy, StarvesAPictureThatStaysThoughItIsPresented) {
     }
 }
 
-TEST(WatchdogPolicy, TakesAPictureThatCoversTheCornerForWhatItIs) {
+TEST(WatchdogPolicy, FeedsIfThePictureCoversTheCode) {
     Exhibit exhibit;
     exhibit.covered = true;
     exhibit.run(seconds(20));
@@ -138,7 +138,7 @@ TEST(WatchdogPolicy, TakesAPictureThatCoversTheCornerForWhatItIs) {
     EXPECT_LE(exhibit.hunger(start), seconds(2));
 }
 
-TEST(WatchdogPolicy, AtRestOneFlipThatIsLateShowsTheSameCodeTwiceAndIsNoTrouble) {
+TEST(WatchdogPolicy, AcceptsTheSameCodeTwiceAtRest) {
     WatchdogPolicy policy(seconds(6), start);
     for (int k = 0; k < 60; ++k) {
         const MonotonicTime now = start + k * milliseconds(1100); // a slow machine's second
@@ -148,14 +148,14 @@ TEST(WatchdogPolicy, AtRestOneFlipThatIsLateShowsTheSameCodeTwiceAndIsNoTrouble)
     }
 }
 
-TEST(WatchdogPolicy, TheSameCodeByChanceCostsNoMeal) {
+TEST(WatchdogPolicy, FeedsDespiteCoincidentallyEqualCodes) {
     Exhibit exhibit; // 256 pictures between two checks would show an equal code each time
     exhibit.period = Nanoseconds(seconds(1)) / 512;
     exhibit.run(seconds(20));
     EXPECT_LE(exhibit.hunger(start), seconds(2));
 }
 
-TEST(WatchdogPolicy, StarvesWhenAThreadBreaksItsPromiseToTheMillisecond) {
+TEST(WatchdogPolicy, StopsFeedingOnceAThreadBreaksItsPromise) {
     Exhibit exhibit;
     exhibit.period = milliseconds(16);
     exhibit.promises = {start + seconds(1000), start + seconds(30)};
@@ -170,7 +170,7 @@ TEST(WatchdogPolicy, StarvesWhenAThreadBreaksItsPromiseToTheMillisecond) {
     EXPECT_EQ(exhibit.health(), Health::Well);
 }
 
-TEST(WatchdogPolicy, SaysEachTroubleInAnotherSentence) {
+TEST(WatchdogPolicy, EachHealthHasItsOwnSentence) {
     for (const Health a : {Health::Well, Health::NoPicture, Health::FrozenCode, Health::ThreadHangs}) {
         EXPECT_FALSE(sentence_of(a).empty());
         for (const Health b : {Health::Well, Health::NoPicture, Health::FrozenCode, Health::ThreadHangs}) {

@@ -47,7 +47,7 @@ std::string refusal_of(const std::string& text) {
     return read ? "" : test::told(read.error());
 }
 
-TEST(Calibration, IsReadAsItWasWritten) {
+TEST(Calibration, RoundTrip) {
     const Calibration written = calibration(9);
     const Result<Calibration> read = parse_calibration(calibration_text(written), "c.toml");
     ASSERT_TRUE(read) << read.error().message;
@@ -70,7 +70,7 @@ TEST(Calibration, IsReadAsItWasWritten) {
 }
 
 /// A measured value has no default: without any one line, the message names the missing key.
-TEST(Calibration, IsRefusedWithoutAnyOneOfItsLines) {
+TEST(Calibration, RefusesAFileWithAMissingLine) {
     const std::string text = calibration_text(calibration(9));
     int lines = 0;
     for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
@@ -114,7 +114,7 @@ protected:
     VolatileDisk disk;
 };
 
-TEST_F(Kept, TheLastThreeAreThereAndTheNewestCounts) {
+TEST_F(Kept, KeepsTheLastThreeAndReadsTheNewest) {
     disk.put("calibration-x.toml", "what nobody wrote");
     for (int k = 1; k <= 5; ++k) {
         ASSERT_TRUE(keep_calibration(disk, calibration(k)));
@@ -124,7 +124,7 @@ TEST_F(Kept, TheLastThreeAreThereAndTheNewestCounts) {
     EXPECT_TRUE(disk.content("calibration-x.toml"));
 }
 
-TEST_F(Kept, TheNewestIsUndoneAndTheNextOneGetsANewNumber) {
+TEST_F(Kept, UndoRemovesTheNewestAndItsNumberIsNotReused) {
     EXPECT_EQ(undo_calibration(disk).error().id, "kept.nothing_to_undo");
     for (int k = 1; k <= 4; ++k) {
         ASSERT_TRUE(keep_calibration(disk, calibration(k)));
@@ -178,7 +178,7 @@ TEST_F(Kept, APowerCutLeavesTheOldOneOrTheNewOne) {
 
 /// The disk is full from any operation on: a calibration reported as kept is there; otherwise the previous state
 /// is.
-TEST_F(Kept, AFullDiskKeepsWhatWasThereAndSaysSo) {
+TEST_F(Kept, AFullDiskKeepsThePreviousStateAndIsReported) {
     ASSERT_TRUE(keep_calibration(disk, calibration(1)));
     int refused = 0;
     for (int k = 0; k < 20; ++k) {
@@ -214,7 +214,7 @@ protected:
     }
 };
 
-TEST_F(Calibrated, TheNewestOneStandsInTheSettings) {
+TEST_F(Calibrated, TheNewestReplacesTheDescribedValues) {
     EXPECT_FALSE(loaded().calibration.used);
     EXPECT_EQ(loaded().projector.table_from_projector.translation.z, 2.0);
     keep(calibration(1));
@@ -233,7 +233,7 @@ TEST_F(Calibrated, TheNewestOneStandsInTheSettings) {
     EXPECT_TRUE(missing_files(settings).empty());
 }
 
-TEST_F(Calibrated, ADamagedOneOrOneThatDoesNotFitGivesWayToTheOneBefore) {
+TEST_F(Calibrated, FallsBackFromADamagedOrUnfitCalibration) {
     keep(calibration(1));
     put("kept/calibration-0002.toml", "version = 1\nmade = ");
     Calibration beside = calibration(3);
@@ -252,7 +252,7 @@ TEST_F(Calibrated, ADamagedOneOrOneThatDoesNotFitGivesWayToTheOneBefore) {
 }
 
 /// A calibration corrects a projector that the settings describe wrongly; without it, the settings are refused.
-TEST_F(Calibrated, MendsAProjectorThatIsDescribedWrongly) {
+TEST_F(Calibrated, OverridesAWronglyDescribedProjector) {
     put("kiosk.toml", "[calibration]\nfolder = \"kept\"\n[projector]\nposition_m = [8.0, 0.0, 2.0]\n");
     EXPECT_FALSE(load_settings(folder / "kiosk.toml"));
     keep(calibration(1));

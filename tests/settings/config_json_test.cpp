@@ -15,7 +15,7 @@ nlohmann::json report_of(const std::string& text) {
     return settings ? nlohmann::json::parse(config_json(*settings)) : nlohmann::json();
 }
 
-TEST(ConfigJson, HoldsTheFieldsThatOutsideChecksRelyOn) {
+TEST(ConfigJson, ContainsTheFieldsForExternalChecks) {
     const nlohmann::json json = report_of(shipped_text());
     const nlohmann::json& projector = json.at("projector");
     EXPECT_EQ(projector.at("width"), 1920);
@@ -71,7 +71,7 @@ TEST(ConfigJson, ListsTheFacesOfAFrustumAndOfACube) {
     }
 }
 
-TEST(ConfigJson, PathsThatAreNotUtf8DoNotStopTheReport) {
+TEST(ConfigJson, ToleratesPathsThatAreNotUtf8) {
     const auto settings = parse_settings("[exhibit]\npacks = [\"a\"]\n", "s\xFFt/kiosk.toml");
     ASSERT_TRUE(settings);
     EXPECT_EQ(nlohmann::json::parse(config_json(*settings)).at("exhibit").at("packs").size(), 1U);

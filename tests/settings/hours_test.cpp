@@ -7,7 +7,7 @@
 namespace frustumscreen::settings {
 namespace {
 
-TEST(Hours, AreReadAsWritten) {
+TEST(Hours, ParsesOpeningHours) {
     const Result<CheckedSettings> settings =
         parse_settings("[hours]\nmonday = []\ntuesday = [\"10:00-18:00\", \"20:00-02:00\"]\n"
                        "exceptions = [\"2026-12-24 10:00-14:00\", \"2026-12-25 closed\"]\n"
@@ -24,7 +24,7 @@ TEST(Hours, AreReadAsWritten) {
     EXPECT_EQ(hours.time_zone, "Europe/Berlin");
 }
 
-TEST(Hours, ComeBackFromTheirTexts) {
+TEST(Hours, RoundTrip) {
     for (const char* text : {"00:00-24:00", "10:00-18:00", "20:00-02:00", "23:59-00:00", "00:00-00:01"}) {
         const std::optional<OpenSpan> span = parse_open_span(text);
         ASSERT_TRUE(span) << text;
@@ -36,7 +36,7 @@ TEST(Hours, ComeBackFromTheirTexts) {
     }
 }
 
-TEST(Hours, AreRefusedWithASentence) {
+TEST(Hours, RefusesInvalidHours) {
     for (const char* span : {"10-18", "10:00", "10:00-10:00", "24:00-02:00", "10:60-11:00", "25:00-26:00",
                              "10:00 - 18:00", "-10:00-18:00"}) {
         const std::string message = refusal(std::string("[hours]\n\nfriday = [\"") + span + "\"]\n");
@@ -61,7 +61,7 @@ TEST(Hours, AreRefusedWithASentence) {
         {"set/kiosk.toml:2: hours.exceptions ", "2026-12-24 closed", "[settings.exception_twice]"}));
 }
 
-TEST(Hours, SayThatThereIsNoSuchZone) {
+TEST(Hours, ReportsAnUnknownTimeZone) {
     Settings settings;
     settings.hours.time_zone = "Europe/Nowhere";
     const std::vector<std::string> lines = missing_files(settings);
@@ -69,7 +69,7 @@ TEST(Hours, SayThatThereIsNoSuchZone) {
     EXPECT_NE(lines[0].find("no time zone \"Europe/Nowhere\""), std::string::npos) << lines[0];
 }
 
-TEST(Hours, MayBeWrittenWithoutAZeroInFront) {
+TEST(Hours, AcceptsHoursWithoutALeadingZero) {
     EXPECT_EQ(parse_open_span("9:00-18:00"), parse_open_span("09:00-18:00"));
     EXPECT_EQ(text_of_span(*parse_open_span("9:00-18:00")), "09:00-18:00");
     EXPECT_FALSE(parse_open_span("9-18"));

@@ -16,7 +16,7 @@ std::string with_line(const std::string& before, const std::string& after = {}) 
     return key_table(before + "public_key = \"" + std::string(line) + "\"\n" + after);
 }
 
-TEST(Keys, AreNoneAndUnsignedPacksAreRefusedUnlessItIsSaid) {
+TEST(Keys, DefaultIsNoKeysAndRefusedUnsignedPacks) {
     EXPECT_TRUE(parsed("").exhibit.keys.empty());
     EXPECT_EQ(parsed("").exhibit.unsigned_packs, pack::UnsignedPacks::Refuse);
     EXPECT_EQ(parsed("[exhibit]\nunsigned = \"allow\"\n").exhibit.unsigned_packs, pack::UnsignedPacks::Allow);
@@ -25,7 +25,7 @@ TEST(Keys, AreNoneAndUnsignedPacksAreRefusedUnlessItIsSaid) {
               std::string::npos);
 }
 
-TEST(Keys, HaveANameAndPerhapsALastDay) {
+TEST(Keys, ParsesNameAndOptionalLastDay) {
     const std::string text =
         with_line("name = \"House\"\n", "until = \"2030-12-31\"\n[[exhibit.keys]]\nname = \"Lab\"\n"
                                         "public_key = \"" +
@@ -44,7 +44,7 @@ TEST(Keys, HaveANameAndPerhapsALastDay) {
     EXPECT_EQ(json["exhibit"]["unsigned"], "refuse");
 }
 
-TEST(Keys, ThatAreNoneAreRefusedWithTheirLine) {
+TEST(Keys, RefusesInvalidKeysWithTheirLine) {
     const auto expect = [](const std::string& text, const std::string& words) {
         const std::string message = refusal(text);
         EXPECT_NE(message.find(words), std::string::npos) << message;

@@ -40,7 +40,7 @@ double light_at(const glm::dvec3& normal, const glm::dvec3& point, const glm::dv
     return glm::dot(normal, to_lens / std::sqrt(d2)) / d2;
 }
 
-TEST(LightRange, HoldsEveryPlaceOfEveryPoseOnTheTable) {
+TEST(LightRange, CoversEveryPoseOnTheTable) {
     const geometry::PropShape prop = geometry::make_frustum({0.2, 0.08, 0.1});
     const glm::dvec3 lens(0.05, -0.1, 1.1);
     const glm::dvec2 reach(0.2, 0.1);
@@ -75,13 +75,13 @@ TEST(LightRange, HoldsEveryPlaceOfEveryPoseOnTheTable) {
     EXPECT_LT(range.most, 1.05 * most);
 }
 
-TEST(LightRange, AFaceThatLooksAwayIsNotEven) {
+TEST(LightRange, EvennessIsNegativeIfAFaceLooksAway) {
     const LightRange range = light_range(geometry::make_frustum({}), {0.0, 0.0, 0.5}, {0.4, 0.0});
     EXPECT_LT(range.evenness, 0.0);
     EXPECT_LT(range.least, 0.0);
 }
 
-TEST(LightRange, TheBottomStaysOnTheTable) {
+TEST(LightRange, ReachKeepsTheBottomOnTheTable) {
     const TableSettings table{0.8, 0.5};
     const glm::dvec2 reach = reach_on_table({PropKind::Frustum, 0.2, 0.1, 0.1, PropZone::Table}, table);
     const double half_diagonal = std::hypot(0.1, 0.1);
@@ -104,7 +104,7 @@ TEST(LightRange, TheShippedTableIsLitEvenlyAllOver) {
     }
 }
 
-TEST(LightRange, ASetUpInWhichAFaceStaysDarkIsNotDarkEverywhere) {
+TEST(LightRange, EvenLightIsPositiveDespiteADarkFace) {
     Settings settings;
     settings.prop = {PropKind::Frustum, 0.16, 0.16, 0.12, PropZone::Table}; // upright walls
     const double reference = even_light(settings);

@@ -121,7 +121,7 @@ Settings random_settings(Draw& draw) {
     return s;
 }
 
-TEST(LitZone, OnePosesAnswerIsThatOfPlainArithmetic) {
+TEST(LitZone, OnePoseMatchesIndependentArithmetic) {
     Draw draw(1);
     int lit = 0;
     for (int k = 0; k < 20000; ++k) {
@@ -141,7 +141,7 @@ TEST(LitZone, OnePosesAnswerIsThatOfPlainArithmetic) {
     EXPECT_LT(lit, 18000);
 }
 
-TEST(LitZone, ForAnyEyeItHoldsThePlacesLitAtEveryYawForEyesAllAround) {
+TEST(LitZone, AnyEyeZoneMatchesThePlacesLitAtEveryYaw) {
     Draw draw(3);
     int inside_count = 0;
     int outside_count = 0;
@@ -165,7 +165,7 @@ TEST(LitZone, ForAnyEyeItHoldsThePlacesLitAtEveryYawForEyesAllAround) {
     EXPECT_GT(outside_count, 100);
 }
 
-TEST(LitZone, ForTheDefaultEyeItHoldsTheZoneForAnyEyeAndEndsWhereAFaceIsDarkAtSomeYaw) {
+TEST(LitZone, DefaultEyeZoneIsLitAndEndsWhereAFaceIsDark) {
     Draw draw(4);
     int lit = 0;
     int dark = 0;
@@ -235,7 +235,7 @@ TEST(LitZone, ACubesSidesAreNeverLitFromStraightAbove) {
     EXPECT_TRUE(zone.default_eye.empty());
 }
 
-TEST(LitZone, InTheHandItIsWhereTheWholePropIsInThePictureHoweverItIsTurned) {
+TEST(LitZone, HandZoneKeepsThePropInThePictureAtAnyRotation) {
     Settings s = steep_table();
     s.prop = cube_settings(0.12);
     s.projector.pinhole.cx = 500.0; // lens shift
@@ -274,7 +274,7 @@ TEST(LitZone, InTheHandItIsWhereTheWholePropIsInThePictureHoweverItIsTurned) {
     }
 }
 
-TEST(LitZone, ATableHardlyDeeperThanThePropIsNoReasonToHang) {
+TEST(LitZone, TerminatesOnATableHardlyDeeperThanTheProp) {
     Settings settings;
     settings.projector.pinhole.fx = settings.projector.pinhole.fy = 200.0;
     settings.prop = {PropKind::Frustum, 0.16, 0.02, 0.05};

@@ -100,7 +100,7 @@ bool finite(const Settings& s) {
     return std::isfinite(sum);
 }
 
-TEST(Mutations, OfTheShippedSettingsAreTakenOrRefusedInOneLine) {
+TEST(Mutations, AreAcceptedOrRefusedInOneLine) {
     const std::string shipped = shipped_text();
     Mutator mutator(20);
     int taken = 0;
@@ -124,7 +124,7 @@ TEST(Mutations, OfTheShippedSettingsAreTakenOrRefusedInOneLine) {
     EXPECT_GE(located, (mutants - taken) * 95 / 100);
 }
 
-TEST(Mutations, DeepNestingIsRefusedNotFollowed) {
+TEST(Mutations, DeepNestingIsRefused) {
     for (const std::string open : {"[", "{a="}) {
         std::string text = "x = ";
         for (int k = 0; k < 100000; ++k) {

@@ -13,7 +13,7 @@ void expect_same_pose(const geometry::RigidTransform& a, const geometry::RigidTr
     }
 }
 
-TEST(Settings, TheShippedFileSaysWhatTheDefaultsSay) {
+TEST(Settings, TheShippedFileEqualsTheDefaults) {
     const Settings defaults;
     const Settings shipped = parsed(shipped_text());
     EXPECT_EQ(shipped.projector.pinhole.width, defaults.projector.pinhole.width);
@@ -45,14 +45,14 @@ TEST(Settings, TheShippedFileSaysWhatTheDefaultsSay) {
     EXPECT_EQ(shipped.exhibit.caption_height_m, defaults.exhibit.caption_height_m);
 }
 
-TEST(Settings, AUsbTrackerAndItsHemisphereAreRead) {
+TEST(Settings, ParsesAUsbTrackerAndItsHemisphere) {
     const Settings usb = parsed("[tracker]\nkind = \"usb\"\nhemisphere = [0, 0, -1]\n");
     EXPECT_EQ(usb.tracker.kind, TrackerKind::Usb);
     EXPECT_EQ(usb.tracker.hemisphere, glm::dvec3(0, 0, -1));
     EXPECT_EQ(name_of(TrackerKind::Usb), "usb");
 }
 
-TEST(Settings, ASpaceMouseAndTheSpeedOfAReplayAreRead) {
+TEST(Settings, ParsesASpaceMouseAndTheReplaySpeed) {
     EXPECT_EQ(parsed("[tracker]\nkind = \"spacemouse\"\n").tracker.kind, TrackerKind::SpaceMouse);
     EXPECT_EQ(name_of(TrackerKind::SpaceMouse), "spacemouse");
     const Settings replay =
@@ -61,7 +61,7 @@ TEST(Settings, ASpaceMouseAndTheSpeedOfAReplayAreRead) {
     EXPECT_EQ(Settings().tracker.replay_speed, 1.0);
 }
 
-TEST(Settings, AFixedSceneIsWrittenOut) {
+TEST(Settings, ParsesAFixedScene) {
     const Settings fixed =
         parsed("[eye]\ntracked = false\n[tracker]\nkind = \"none\"\n[exhibit]\ncaptions = false\n");
     EXPECT_FALSE(fixed.eye.tracked);
@@ -69,7 +69,7 @@ TEST(Settings, AFixedSceneIsWrittenOut) {
     EXPECT_FALSE(fixed.exhibit.captions);
 }
 
-TEST(Settings, AnEmptyFileIsTheDefaults) {
+TEST(Settings, AnEmptyFileGivesTheDefaults) {
     const Settings settings = parsed("");
     EXPECT_NEAR(settings.projector.pinhole.fx, Settings().projector.pinhole.fx, 1e-9);
     expect_same_pose(settings.projector.table_from_projector, Settings().projector.table_from_projector);
@@ -102,7 +102,7 @@ TEST(Settings, TheNearPropCoversAQuarterOfThePicture) {
 }
 
 /// Each example is read as a kiosk reads it.
-TEST(Settings, EveryExampleIsRead) {
+TEST(Settings, EveryExampleLoads) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/config")) {
         if (entry.path().extension() == ".toml") {
@@ -124,11 +124,11 @@ TEST(Settings, TheStereoExampleShowsTwoHalvesOfACubeInTheHand) {
     EXPECT_LT(glm::distance(pixel_of(*settings, {0.4, -0.225, 0}), glm::dvec2(1920, 1080)), 1e-9);
 }
 
-TEST(Settings, AWholeNumberIsTakenWhereANumberIs) {
+TEST(Settings, AcceptsAWholeNumberAsANumber) {
     EXPECT_EQ(parsed("[table]\nwidth_m = 1\n").table.width_m, 1.0);
 }
 
-TEST(Settings, FocalLengthsAndLensShiftAreTakenAsTheyStand) {
+TEST(Settings, ParsesFocalLengthsAndLensShift) {
     const Settings settings =
         parsed("[projector]\nwidth = 1000\nheight = 500\nfx = 1500\nfy = 1400\ncx = 480.5\ncy = 300\n");
     const geometry::Pinhole& p = settings.projector.pinhole;
@@ -162,7 +162,7 @@ TEST(Settings, TheTwoWaysToPlaceTheProjectorAgree) {
     expect_same_pose(by_matrix.projector.table_from_projector, by_aim.projector.table_from_projector);
 }
 
-TEST(Settings, ACubesEdgesAreAllTheSame) {
+TEST(Settings, ACubeHasEqualEdgesAndTheHandZone) {
     const Settings settings = parsed("[prop]\nkind = \"cube\"\nbase_m = 0.12\n");
     EXPECT_EQ(settings.prop.kind, PropKind::Cube);
     EXPECT_EQ(settings.prop.top_m, 0.12);
@@ -183,7 +183,7 @@ TEST(Settings, PathsAreRelativeToTheSettingsFile) {
     EXPECT_EQ(settings.exhibit.packs[1], std::filesystem::path("/b.fspack"));
 }
 
-TEST(Settings, TheScriptIsReadInOrder) {
+TEST(Settings, ParsesTheScriptInOrder) {
     const Settings settings =
         parsed("[panel]\nscript = [{at_s = 1, button = 0}, {at_s = 2.5}]\nrepeat_s = 4\n");
     ASSERT_EQ(settings.panel.script.size(), 2U);
@@ -193,7 +193,7 @@ TEST(Settings, TheScriptIsReadInOrder) {
     EXPECT_EQ(settings.panel.repeat_s, 4.0);
 }
 
-TEST(Settings, TheProjectorsModeIsReadAsAPersonWritesIt) {
+TEST(Settings, ParsesTheDisplayMode) {
     const Settings settings = parsed(
         "[display]\ncard = \"card1\"\nconnector = \"HDMI-A-2\"\nmode = \"1920x1200@59.95\"\nforce = true\n");
     EXPECT_EQ(settings.display.kind, DisplayKind::Kms);
@@ -214,7 +214,7 @@ TEST(Settings, TheProjectorsModeIsReadAsAPersonWritesIt) {
     }
 }
 
-TEST(Settings, TakesButtonsOnAGpioChip) {
+TEST(Settings, ParsesGpioAndKeyboardButtons) {
     const Settings settings =
         parsed("[panel]\nkind = \"gpio\"\nchip = \"cp2112_gpio\"\nlines = [\"PREVIOUS\", \"5\"]\n"
                "bias = \"as-is\"\nactive_low = false\ndebounce_ms = 12.5\nstuck_s = 60.0\n");

@@ -14,7 +14,7 @@ TEST(Polygon, TheAreaIsPositiveForCornersCounterClockwise) {
     EXPECT_EQ(area_of({}), 0.0);
 }
 
-TEST(Polygon, AHalfPlaneCutsOffWhatLiesBehindIt) {
+TEST(Polygon, AHalfPlaneClipsThePolygon) {
     const Polygon right = clipped(square, {{1.0, 0.0}, 0.5});
     EXPECT_DOUBLE_EQ(area_of(right), 3.0);
     EXPECT_EQ(clipped(square, {{-1.0, -1.0}, -3.0}).size(), 5U) << "a corner is cut off";

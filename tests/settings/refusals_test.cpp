@@ -36,7 +36,7 @@ void expect_refusals(const Expectations& expectations) {
     }
 }
 
-TEST(Refusals, OfWrongTypes) {
+TEST(Refusals, WrongTypesAreRefused) {
     expect_refusals({
         {"[prop]\nbase_m = \"0.16\"", {":2: prop.base_m is the text \"0.16\"", "0.02 to 2 metres"}},
         {"[prop]\nbase_m = true", {":2: prop.base_m is true"}},
@@ -58,7 +58,7 @@ TEST(Refusals, OfWrongTypes) {
     });
 }
 
-TEST(Refusals, OfNumbersThatAreNone) {
+TEST(Refusals, NanAndInfinityAreRefused) {
     for (const std::string number : {"nan", "-nan", "inf", "-inf"}) {
         expect_refusals({
             {"[prop]\nbase_m = " + number, {":2: prop.base_m is "}},
@@ -69,7 +69,7 @@ TEST(Refusals, OfNumbersThatAreNone) {
     }
 }
 
-TEST(Refusals, OfUnknownKeysNameTheNearest) {
+TEST(Refusals, UnknownKeysNameTheNearest) {
     expect_refusals({
         {"[prop]\nbase = 0.1", {":2: prop.base is not a known key; the nearest allowed key is prop.base_m"}},
         {"[projctor]\nwidth = 640",
@@ -82,7 +82,7 @@ TEST(Refusals, OfUnknownKeysNameTheNearest) {
     });
 }
 
-TEST(Refusals, OfTextThatIsNotToml) {
+TEST(Refusals, InvalidTomlIsRefused) {
     expect_refusals({
         {"[prop]\nbase_m = 0.1\nbase_m = 0.2\n", {":3: is not TOML", "base_m"}},
         {"[prop]\nbase_m = \n", {":2: is not TOML"}},
@@ -93,7 +93,7 @@ TEST(Refusals, OfTextThatIsNotToml) {
     });
 }
 
-TEST(Refusals, OfMatricesThatAreNotRigid) {
+TEST(Refusals, NonRigidMatricesAreRefused) {
     const auto matrix = [](const std::string& columns) {
         return "[projector]\ntable_from_projector = " + columns;
     };
@@ -114,7 +114,7 @@ TEST(Refusals, OfMatricesThatAreNotRigid) {
     });
 }
 
-TEST(Refusals, OfTwoWaysToSayOneThing) {
+TEST(Refusals, ConflictingKeysAreRefused) {
     expect_refusals({
         {"[projector]\nfx = 1500\nthrow_ratio = 1.5", {":3: projector.throw_ratio stands beside fx"}},
         {"[projector]\nroll_deg = 0\ntable_from_projector = [1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,1.2,1]",
@@ -123,7 +123,7 @@ TEST(Refusals, OfTwoWaysToSayOneThing) {
     });
 }
 
-TEST(Refusals, OfSettingsThatMakeNoExhibit) {
+TEST(Refusals, UnusableValuesAreRefused) {
     expect_refusals({
         {"[prop]\ntop_m = 0.3", {":2: prop.top_m is 0.3; a frustum's top must be smaller than prop.base_m"}},
         {"[prop]\nheight_m = 1.45",
@@ -226,7 +226,7 @@ TEST(Refusals, OfSettingsThatMakeNoExhibit) {
     });
 }
 
-TEST(Refusals, OfLanguagesThatThereAreNot) {
+TEST(Refusals, InvalidLanguageTagsAreRefused) {
     for (const std::string tag : {"xx", "english", "en_GB", "de-", "-de", "de--CH", "d", "", "e n", "1a",
                                   "dé", "de-farmhouses", "germ"}) {
         const std::string message = refusal("[exhibit]\nlanguage = \"" + tag + "\"");
@@ -241,7 +241,7 @@ TEST(Refusals, OfLanguagesThatThereAreNot) {
 }
 
 /// Debian's own list, if it is installed, has the same two-letter codes.
-TEST(Refusals, OfNoLanguageOfIso639) {
+TEST(Refusals, LanguageCodesMatchIso639) {
     std::ifstream file("/usr/share/iso-codes/json/iso_639-3.json");
     const nlohmann::json codes = nlohmann::json::parse(file, nullptr, false);
     if (codes.is_discarded()) {
@@ -261,7 +261,7 @@ TEST(Refusals, OfNoLanguageOfIso639) {
 }
 
 /// Only `missing_files` looks for files: settings are valid without them.
-TEST(MissingFiles, AreSaidWithThePlaceThatNamesThem) {
+TEST(MissingFiles, AreReportedWithTheLineThatNamesThem) {
     const auto settings = parse_settings("[tracker]\nkind = \"replay\"\nposes = \"visit.csv\"\n[exhibit]\n"
                                          "packs = [\n\"cat.fspack\", \"README.md\", \"docs\"]\n",
                                          source_dir() + "/kiosk.toml");
@@ -280,13 +280,13 @@ TEST(MissingFiles, AreSaidWithThePlaceThatNamesThem) {
     EXPECT_TRUE(missing_files(parsed("[tracker]\nkind = \"usb\"\nposes = \"visit.csv\"\n")).empty());
 }
 
-TEST(Refusals, NotOfLinesThatOnlyLookAlike) {
+TEST(Refusals, SimilarPanelLinesAreAccepted) {
     EXPECT_EQ(refusal("[panel]\nlines = [\"3\", \"30\", \"GPIO3\"]\nlamps = [\"0\", \"03a\", \"3a\"]\n"
                       "keys = [\"KEY_3\", \"KEY_03\"]"),
               "");
 }
 
-TEST(Refusals, OfAFileThatIsTooLargeOrNotThere) {
+TEST(Refusals, TooLargeAndMissingFilesAreRefused) {
     const std::string message = refusal(std::string((std::size_t{1} << 20) + 1, '#'));
     EXPECT_NE(message.find("1048577 bytes"), std::string::npos) << message;
     const auto missing = load_settings("no/such/kiosk.toml");

@@ -36,7 +36,7 @@ void expect_refused(const std::string& text, const std::vector<std::string>& wor
     }
 }
 
-TEST(ScreenSettings, WithoutARoomAreNone) {
+TEST(ScreenSettings, NoScreenExistsWithoutARoom) {
     EXPECT_FALSE(parsed("").screen.exists());
     EXPECT_FALSE(parsed("[screen]\nwidth = 64\n").screen.exists());
     EXPECT_FALSE(parsed(shipped_text()).screen.exists());
@@ -45,7 +45,7 @@ TEST(ScreenSettings, WithoutARoomAreNone) {
     expect_refused("[screen]\nwidth = 1.5\n", {":2: screen.width is 1.5"});
 }
 
-TEST(ScreenSettings, HaveEveryKey) {
+TEST(ScreenSettings, ParsesEveryKey) {
     const ScreenSettings read =
         parsed(
             screen(corners({glm::dvec3(-1, 1, 2), glm::dvec3(1, 1, 2), glm::dvec3(1, 1, 1),
@@ -65,7 +65,7 @@ TEST(ScreenSettings, HaveEveryKey) {
     EXPECT_EQ(read.stereo, OutputStereo::TopBottom);
 }
 
-TEST(ScreenSettings, HaveTheEyesLayoutUnlessTheyHaveTheirOwn) {
+TEST(ScreenSettings, StereoDefaultsToTheEyesLayout) {
     EXPECT_EQ(screen_stereo_of(parsed(screen() + "[eye]\nstereo = \"anaglyph\"\n")), Stereo::Anaglyph);
     const Settings own = parsed(screen("stereo = \"off\"") + "[eye]\nstereo = \"anaglyph\"\n");
     EXPECT_EQ(screen_stereo_of(own), Stereo::Off);
@@ -74,7 +74,7 @@ TEST(ScreenSettings, HaveTheEyesLayoutUnlessTheyHaveTheirOwn) {
 }
 
 /// The lines that kiosk.toml shows in comments are a screen.
-TEST(ScreenSettings, OfTheShippedFileAreAScreenOnceTheCommentSignsAreTakenOff) {
+TEST(ScreenSettings, CommentedExampleOfTheShippedFileParses) {
     std::istringstream lines(shipped_text());
     std::string text;
     bool inside = false;
@@ -94,7 +94,7 @@ TEST(ScreenSettings, OfTheShippedFileAreAScreenOnceTheCommentSignsAreTakenOff) {
     EXPECT_EQ(settings.screen.stereo, usual.stereo);
 }
 
-TEST(ScreenCorners, MayBeAMillimetreOffAndNotTen) {
+TEST(ScreenCorners, MayBeOffByOneMillimetreButNotTen) {
     for (const glm::dvec3& way : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
         for (std::size_t which = 0; which < 4; ++which) {
             std::array<glm::dvec3, 4> at{top_left, top_right, bottom_right, bottom_left};
@@ -141,7 +141,7 @@ TEST(ScreenCorners, InAnotherOrderAreRefused) {
     expect_refused(screen() + "[eye]\ndefault_m = [0, 0.7, 0.5]\n", {"screen.corners_m looks away"});
 }
 
-TEST(ScreenCorners, OfNoSizeOrOfOtherTypesAreRefused) {
+TEST(ScreenCorners, TooSmallOrMistypedAreRefused) {
     expect_refused(
         screen(corners({glm::dvec3(0, 0.7, 0.84), glm::dvec3(0.04, 0.7, 0.84), glm::dvec3(0.04, 0.7, 0.4),
                         glm::dvec3(0, 0.7, 0.4)})),
@@ -162,7 +162,7 @@ TEST(ScreenCorners, OfNoSizeOrOfOtherTypesAreRefused) {
     }
 }
 
-TEST(ScreenOutput, IsAnotherConnectorThanTheProjectors) {
+TEST(ScreenOutput, MustDifferFromTheProjectorsConnector) {
     const auto both = [](const std::string& display, const std::string& of_screen) {
         return "[display]\n" + display + "\n" + screen(of_screen);
     };
@@ -179,7 +179,7 @@ TEST(ScreenOutput, IsAnotherConnectorThanTheProjectors) {
         "");
 }
 
-TEST(ScreenOutput, HasHalvesForTwoEyesOrIsRefused) {
+TEST(ScreenOutput, InvalidSizeAndStereoAreRefused) {
     expect_refused(
         screen("width = 1921\nstereo = \"side_by_side\""),
         {":4: screen.stereo is \"side_by_side\", and screen.width is 1921", "[settings.stereo_odd_width]"});
@@ -194,7 +194,7 @@ TEST(ScreenOutput, HasHalvesForTwoEyesOrIsRefused) {
     expect_refused("[screen]\nroom = 5\n", {":2: screen.room is 5"});
 }
 
-TEST(ScreenRoom, ThatIsMissingIsSaidWithThePlaceThatNamesIt) {
+TEST(ScreenRoom, MissingFileIsReported) {
     const auto missing = [](const std::string& room) {
         const auto settings =
             parse_settings("[screen]\nroom = \"" + room + "\"\n", source_dir() + "/kiosk.toml");

@@ -15,13 +15,13 @@ std::string committed_page() {
     return frustumscreen::text_of(source_dir() + "/docs/settings.md");
 }
 
-TEST(SettingsPage, IsTheOneInTheDocuments) {
+TEST(SettingsPage, MatchesTheCommittedPage) {
     EXPECT_EQ(settings_page(), committed_page())
         << "write it again: frustumscreen config --describe > docs/settings.md";
 }
 
 /// The shipped file shows a technician every key, in a comment if not with its default.
-TEST(SettingsPage, HasNoKeyThatTheShippedFileDoesNotName) {
+TEST(SettingsPage, EveryKeyIsInTheShippedFile) {
     const std::string page = settings_page();
     const std::string shipped = shipped_text();
     const std::regex row("\\n\\| `(?:[a-z]+\\[\\]\\.)?([a-z_]+)`");
@@ -34,7 +34,7 @@ TEST(SettingsPage, HasNoKeyThatTheShippedFileDoesNotName) {
 }
 
 /// The reader allows exactly the ranges of the page.
-TEST(SettingsPage, HasTheRangesThatHold) {
+TEST(SettingsPage, RangesMatchTheReader) {
     std::istringstream lines(settings_page());
     const std::regex table_form(R"(## \[([\w.]+)\])");
     const std::regex row_form(
@@ -70,7 +70,7 @@ TEST(SettingsPage, HasTheRangesThatHold) {
 }
 
 /// A missing key has the page's default.
-TEST(SettingsPage, HasTheDefaultsThatHold) {
+TEST(SettingsPage, ListsAKeyWithItsDefaultAndRange) {
     const std::string page = settings_page();
     EXPECT_NE(page.find("| `base_m` | `0.3` | 0.02 to 2 metres |"), std::string::npos);
     EXPECT_EQ(parsed("").prop.base_m, 0.3);

@@ -72,7 +72,7 @@ TEST(SolidProp, IsLitOnTheFacesThatAreNamed) {
     EXPECT_FALSE(geometry::intersect(prop, {0.0, -1.0, 0.05}, {0.0, 1.0, 0.0}, hit));
 }
 
-TEST(SolidProp, TellsWhoMadeItWhatToKnow) {
+TEST(SolidProp, WarnsOfNormalsAndOfATooSmallWidth) {
     const std::string slab = "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\n"
                              "v -100 -100 50\nv 100 -100 50\nv 100 100 50\nv -100 100 50\nvn 0 0 1\n"
                              "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
@@ -84,7 +84,7 @@ TEST(SolidProp, TellsWhoMadeItWhatToKnow) {
     EXPECT_TRUE(missing_files(parsed(with_example("prop_hexagon.obj"))).empty());
 }
 
-TEST(SolidProp, IsReportedWithFacesOfAnyNumberOfCorners) {
+TEST(SolidProp, ReportsFacesOfAnyNumberOfCorners) {
     const auto checked = parse_settings(with_example("prop_gem.obj"), "set/kiosk.toml");
     ASSERT_TRUE(checked) << checked.error().message;
     const nlohmann::json prop = nlohmann::json::parse(config_json(*checked)).at("prop");
@@ -99,7 +99,7 @@ TEST(SolidProp, IsReportedWithFacesOfAnyNumberOfCorners) {
     EXPECT_EQ(make_prop((*checked)->prop).corners.size(), 2U + corners / 2U - 14U);
 }
 
-TEST(SolidProp, RefusalsSayWhatToDo) {
+TEST(SolidProp, RefusalsNameTheLineAndTheCause) {
     const TemporaryFolder folder;
     const std::string open = folder.write("open.obj", "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\nf 1 2 3\n");
     const std::string named = "[prop]\nkind = \"solid\"\nfile = \"";

@@ -65,7 +65,7 @@ double by_random_rays(const Settings& settings, double distance_m, double lowest
     return largest;
 }
 
-TEST(StereoParallax, IsWhatTheEyesLinesSay) {
+TEST(StereoParallax, MatchesTracedEyeRays) {
     Settings table;
     Settings steep;
     steep.prop.base_m = 0.16;

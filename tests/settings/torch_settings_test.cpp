@@ -14,14 +14,14 @@ const std::string camera_with_tags =
     "table_from_camera = [1, 0, 0, 0,  0, -1, 0, 0,  0, 0, -1, 0,  0, 0, 1.3, 1]\n"
     "[[camera.tag]]\nid = 4\n";
 
-TEST(TorchSettings, AreNoneUnlessASourceIsNamed) {
+TEST(TorchSettings, NoTorchExistsUnlessASourceIsNamed) {
     EXPECT_FALSE(parsed("").torch.exists());
     EXPECT_FALSE(parsed("[torch]\nopening_deg = 20\n").torch.exists());
     EXPECT_FALSE(parsed(shipped_text()).torch.exists());
     EXPECT_TRUE(parsed("[torch]\nsource = \"tracker\"\n").torch.exists());
 }
 
-TEST(TorchSettings, HaveEveryKey) {
+TEST(TorchSettings, ParsesEveryKey) {
     const TorchSettings read =
         parsed("[torch]\nsource = \"both\"\nopening_deg = 20\nmin_opening_deg = 5\nmax_opening_deg = 90\n"
                "shape = \"rectangle\"\nattenuation = \"smooth_step\"\nfull_m = 0.2\ndark_m = 0.9\n"
@@ -64,7 +64,7 @@ TEST(TorchSettings, PutTheTagOnTheLampsUpperSide) {
     EXPECT_LT(glm::distance(torch_from_tag.direction({0, 1, 0}), glm::dvec3(0, 0, 1)), 1e-12);
 }
 
-TEST(TorchSettings, AreRefusedInOneSentence) {
+TEST(TorchSettings, InvalidValuesAreRefusedInOneLine) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> refused = {
         {"[torch]\nsource = \"hand\"\n", {":2: torch.source", "tracker"}},
         {"[torch]\nopening_deg = 180\n", {":2: torch.opening_deg is 180", "0.01 to 179 degrees"}},
@@ -95,11 +95,11 @@ TEST(TorchSettings, AreRefusedInOneSentence) {
 }
 
 /// A torch that is not there needs no tracker, and its opening has no range to lie in.
-TEST(TorchSettings, OfNoTorchNeedNothing) {
+TEST(TorchSettings, UnusedValuesAreNotChecked) {
     EXPECT_EQ(refusal("[torch]\nopening_deg = 90\n[tracker]\nkind = \"none\"\n"), "");
 }
 
-TEST(TorchSettings, AreReported) {
+TEST(TorchSettings, AppearInTheJsonReport) {
     const auto settings =
         parse_settings("[torch]\nsource = \"tracker\"\nopening_deg = 25\n", "set/kiosk.toml");
     ASSERT_TRUE(settings);
@@ -112,7 +112,7 @@ TEST(TorchSettings, AreReported) {
     EXPECT_EQ(json["torch"]["tag"]["id"], TorchSettings().tag.id);
 }
 
-TEST(TorchSettings, OfTheExampleAreAccepted) {
+TEST(TorchSettings, ExampleIsAccepted) {
     const auto settings = load_settings(source_dir() + "/config/torch.toml");
     ASSERT_TRUE(settings) << settings.error().message;
     EXPECT_EQ((*settings)->torch.source, TorchSource::Tracker);

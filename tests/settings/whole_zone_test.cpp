@@ -186,7 +186,7 @@ TEST_P(WholeZoneOf, IsNotMuchSmallerThanItMustBe) {
     EXPECT_GE(tried, 3) << "the table ends the wide zone at its sides";
 }
 
-TEST(WholeZone, IsWiderThanThatOfTheFacesAndWiderStillForHighEyes) {
+TEST(WholeZone, IsWiderThanTheFacesZoneAndWidestForHighEyes) {
     const Case shown = shipped();
     const Settings& s = shown.settings;
     const Rectangle faces = lit_rectangle(s);
@@ -196,7 +196,7 @@ TEST(WholeZone, IsWiderThanThatOfTheFacesAndWiderStillForHighEyes) {
     EXPECT_GT(high.half_m.x * high.half_m.y, 1.5 * all.half_m.x * all.half_m.y);
 }
 
-TEST(WholeZone, OfAnArtifactThatReachesOutOfThePropIsThatOfItsFaces) {
+TEST(WholeZone, ExtentOfAProtrudingArtifactEndsAtTheProp) {
     Case shown = shipped();
     shown.hull.emplace_back(0.2, 0.0, 0.1);
     const Polygon extent =

@@ -12,21 +12,21 @@
 namespace frustumscreen::settings {
 namespace {
 
-TEST(WindowSettings, AreNoneUnlessTheyAreAskedFor) {
+TEST(WindowSettings, NoWindowsExistUnlessACountIsGiven) {
     EXPECT_FALSE(parsed("").windows.exist());
     EXPECT_FALSE(parsed("[windows]\nwidth_m = 0.1\n").windows.exist());
     EXPECT_FALSE(parsed(shipped_text()).windows.exist());
     EXPECT_TRUE(parsed("[windows]\ncount = 1\n").windows.exist());
 }
 
-TEST(WindowSettings, HaveEveryKey) {
+TEST(WindowSettings, ParsesEveryKey) {
     const WindowSettings read = parsed("[windows]\ncount = 6\nwidth_m = 0.1\ndepth_m = 0.07\n").windows;
     EXPECT_EQ(read.count, 6U);
     EXPECT_EQ(read.width_m, 0.1);
     EXPECT_EQ(read.depth_m, 0.07);
 }
 
-TEST(WindowSettings, AreRefusedInOneSentence) {
+TEST(WindowSettings, InvalidValuesAreRefusedInOneLine) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> refused = {
         {"[windows]\ncount = 7\n", {":2: windows.count is 7", "0 to 6"}},
         {"[windows]\ncount = -1\n", {":2: windows.count is -1", "0 to 6"}},
@@ -48,7 +48,7 @@ TEST(WindowSettings, AreRefusedInOneSentence) {
 }
 
 /// With a count of 0 no window need fit; a window that just fits beside the prop is allowed.
-TEST(WindowSettings, MustFitBesideThePropWhereThereAreAny) {
+TEST(WindowSettings, MustFitBesideThePropIfAnyExist) {
     const std::string table = "[table]\nwidth_m = 0.4\ndepth_m = 0.3\n";
     EXPECT_EQ(refusal("[windows]\nwidth_m = 0.4\n" + table), "");
     const Settings usual = parsed(table);
@@ -62,7 +62,7 @@ TEST(WindowSettings, MustFitBesideThePropWhereThereAreAny) {
     EXPECT_NE(refusal(with(beside_m + 0.001)), "");
 }
 
-TEST(WindowSettings, AreReported) {
+TEST(WindowSettings, AppearInTheJsonReport) {
     const auto settings = parse_settings("[windows]\ncount = 3\nwidth_m = 0.1\n", "set/kiosk.toml");
     ASSERT_TRUE(settings);
     const auto json = nlohmann::json::parse(config_json(*settings));
@@ -71,7 +71,7 @@ TEST(WindowSettings, AreReported) {
     EXPECT_EQ(json["windows"]["depth_m"], 0.12);
 }
 
-TEST(WindowSettings, OfTheExampleAreAcceptedAndItsPanelHasTheButton) {
+TEST(WindowSettings, ExampleIsAcceptedAndHasTheWindowButton) {
     const auto settings = load_settings(source_dir() + "/config/windows.toml");
     ASSERT_TRUE(settings) << settings.error().message;
     EXPECT_EQ((*settings)->windows.count, 4U);

@@ -8,7 +8,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
+TEST_F(ArtifactShowTest, LoadsTheFirstArtifactAtOnceAndThenItsNeighbours) {
     start(5, false);
     EXPECT_EQ(show->artifacts()[0], exhibit::ArtifactState::Ready);
     EXPECT_EQ(show->state({}).loaded, 1U);
@@ -21,7 +21,7 @@ TEST_F(Comings, TheFirstIsThereAtOnceAndItsNeighboursComeByThemselves) {
     EXPECT_TRUE(shown_blue());
 }
 
-TEST_F(Comings, WhatIsChosenBeforeItIsThereHasAPictureInItsPlaceAndFadesIn) {
+TEST_F(ArtifactShowTest, ShowsAPlaceholderUntilTheArtifactIsLoadedAndFadesItIn) {
     start(5, false);
     rest(); // until the first has faded in
     const std::array<settings::Command, 2> twice{settings::Command::NextArtifact,
@@ -48,7 +48,7 @@ TEST_F(Comings, WhatIsChosenBeforeItIsThereHasAPictureInItsPlaceAndFadesIn) {
     EXPECT_TRUE(shown_blue());
 }
 
-TEST_F(Comings, EachShowsItsOwnPicture) {
+TEST_F(ArtifactShowTest, EachArtifactShowsItsOwnPicture) {
     start(5, true);
     std::vector<int> blues;
     for (int k = 0; k < 5; ++k) {
@@ -63,7 +63,7 @@ TEST_F(Comings, EachShowsItsOwnPicture) {
     EXPECT_EQ(show->state({}).loaded, 5U); // all fit
 }
 
-TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
+TEST_F(ArtifactShowTest, LeavesOutPacksThatAreDamagedOrRemovedAfterTheStart) {
     start(4, false);
     files.damage(1);
     std::filesystem::remove(files.files()[3]);
@@ -82,7 +82,7 @@ TEST_F(Comings, APackThatGoesBadAfterTheStartIsLeftOutThenAndTheOthersStay) {
     EXPECT_EQ(step().lamps & 3U, 3U); // there is still another one
 }
 
-TEST_F(Comings, APackThatIsReplacedWhileTheExhibitRunsIsNotShownWithTheOldOnesPlan) {
+TEST_F(ArtifactShowTest, RejectsAPackThatIsReplacedAfterTheStart) {
     start(3, false);
     pack::Pack other = numbered_pack(1);
     other.title = "Another";
@@ -92,7 +92,7 @@ TEST_F(Comings, APackThatIsReplacedWhileTheExhibitRunsIsNotShownWithTheOldOnesPl
     EXPECT_EQ(show->artifacts()[1], exhibit::ArtifactState::Unusable);
 }
 
-TEST_F(Comings, WhereAllOthersAreBadTheFirstStays) {
+TEST_F(ArtifactShowTest, KeepsTheFirstArtifactIfAllOthersAreUnusable) {
     start(3, false);
     std::filesystem::remove(files.files()[1]);
     std::filesystem::remove(files.files()[2]);
@@ -106,7 +106,7 @@ TEST_F(Comings, WhereAllOthersAreBadTheFirstStays) {
     EXPECT_EQ(presentation.lamps & 3U, 0U);
 }
 
-TEST_F(Comings, NothingIsTakenFromTheStoreTwice) {
+TEST_F(ArtifactShowTest, UsesThePlannedGpuMemoryAfterTwentySwitches) {
     start(5, true);
     rest();
     const std::uint64_t before = show->use().gpu_bytes;

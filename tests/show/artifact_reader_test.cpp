@@ -32,7 +32,7 @@ Result<residency::ArtifactReader::Prepared> numbered(std::size_t artifact) {
     return bad_input("test.refusal", std::to_string(artifact)); // the quickest answer
 }
 
-TEST(ArtifactReader, AnswersWhatIsAskedFor) {
+TEST(ArtifactReader, AnswersEachRequest) {
     residency::ArtifactReader reader([](std::size_t artifact, const auto&) { return numbered(artifact); });
     for (const std::size_t artifact : {3U, 0U, 7U, 7U}) {
         reader.request(artifact);
@@ -44,7 +44,7 @@ TEST(ArtifactReader, AnswersWhatIsAskedFor) {
     EXPECT_FALSE(reader.take());
 }
 
-TEST(ArtifactReader, GivesUpWhatIsNotWantedAnyMore) {
+TEST(ArtifactReader, CancelsAReadThatIsNoLongerRequested) {
     std::atomic<int> begun = 0;
     std::atomic<int> given_up_count = 0;
     residency::ArtifactReader reader([&](std::size_t artifact, const auto& given_up) {
@@ -64,7 +64,7 @@ TEST(ArtifactReader, GivesUpWhatIsNotWantedAnyMore) {
     EXPECT_EQ(given_up_count, 1);
 }
 
-TEST(ArtifactReader, EndsInTheMiddleOfItsWork) {
+TEST(ArtifactReader, DestructorCancelsTheReadInProgress) {
     std::atomic<bool> begun = false;
     std::atomic<bool> gave_up = false;
     {
@@ -85,7 +85,7 @@ TEST(ArtifactReader, EndsInTheMiddleOfItsWork) {
 }
 
 /// Requests faster than the reader: every answer was requested, and the last request is answered.
-TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
+TEST(ArtifactReader, AnswersTheLastOfManyRequests) {
     std::mt19937 random(3);
     for (int round = 0; round < 50; ++round) {
         residency::ArtifactReader reader([](std::size_t artifact, const auto& given_up) {
@@ -106,7 +106,7 @@ TEST(ArtifactReader, MeetsTheLastOfManyWishes) {
     }
 }
 
-TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
+TEST(ArtifactReader, PreparesTheSameDataAsPrepareLevel) {
     const synthetic::ShownPacks packs(1);
     const residency::KnownArtifact known = packs.known(0);
     residency::ArtifactReader reader(
@@ -136,7 +136,7 @@ TEST(ArtifactReader, PreparesWhatUploadingAtOnceWould) {
 }
 
 /// The relief's own colours are those of a darker artifact, so its own exposure would be much brighter.
-TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
+TEST(ArtifactReader, ExposesAReliefLikeTheMeshesOfItsArtifact) {
     const synthetic::ShownPacks packs(1);
     residency::KnownArtifact known = packs.known(0);
     pack::Pack pack = synthetic::numbered_pack(0);
@@ -159,7 +159,7 @@ TEST(ArtifactReader, AReliefIsExposedAsTheMeshesOfItsArtifact) {
 }
 
 /// The governor measures what its quality levels draw; the relief is in the GPU memory only if one of them draws it there.
-TEST(ArtifactReader, AReliefIsPreparedInEachWayThatAQualityLevelDrawsItAndNoOther) {
+TEST(ArtifactReader, PreparesAReliefOnlyInTheWaysItsQualityLevelsDrawIt) {
     const synthetic::ShownPacks packs(1);
     residency::KnownArtifact known = packs.known(0);
     pack::Pack pack = synthetic::numbered_pack(0);

@@ -24,9 +24,9 @@ pack::Pack narration_pack(std::size_t number) {
     return pack;
 }
 
-class TextsComing : public Comings {
+class ArtifactShowTextsTest : public ArtifactShowTest {
 protected:
-    TextsComing() {
+    ArtifactShowTextsTest() {
         settings.exhibit.captions = true;
         for (std::size_t k = 0; k < files.files().size(); ++k) {
             static_cast<void>(write_file(files.files()[k], pack::write_pack(narration_pack(k)).value()));
@@ -34,7 +34,7 @@ protected:
     }
     void start(std::size_t packs, bool waits, bool other_languages = true) {
         devices.language = other_languages;
-        Comings::start(packs, waits);
+        ArtifactShowTest::start(packs, waits);
     }
     /// Bytes of the texts' coverage in the GPU's memory, from the exhibit's sizes.
     [[nodiscard]] std::uint64_t coverage_bytes(const std::vector<glm::dvec2>& widths) const {
@@ -65,7 +65,7 @@ protected:
     const std::array<settings::Command, 1> language{settings::Command::NextLanguage};
 };
 
-TEST_F(TextsComing, AtTheStartThereIsTheCaptionOfTheFirstArtifactInTheHousesLanguage) {
+TEST_F(ArtifactShowTextsTest, LoadsOnlyTheFirstCaptionInTheDefaultLanguageAtStart) {
     start(5, false);
     const show::ShowUse use = show->use();
     EXPECT_EQ(use.text_gpu_bytes, caption_bytes(0, 0));
@@ -75,7 +75,7 @@ TEST_F(TextsComing, AtTheStartThereIsTheCaptionOfTheFirstArtifactInTheHousesLang
     EXPECT_EQ(show->use().gpu_bytes, use.gpu_bytes); // independent of the other packs
 }
 
-TEST_F(TextsComing, NeighboursBringTheirCaptionsAndTheChosenOneAllThatIsToldOfIt) {
+TEST_F(ArtifactShowTextsTest, LoadsCaptionsOfNeighboursAndAllTextsOfTheChosenArtifact) {
     start(5, true);
     rest();
     EXPECT_EQ(show->use().text_gpu_bytes,
@@ -88,7 +88,7 @@ TEST_F(TextsComing, NeighboursBringTheirCaptionsAndTheChosenOneAllThatIsToldOfIt
     EXPECT_EQ(show->use().gpu_bytes, show->use().planned_gpu_bytes);
 }
 
-TEST_F(TextsComing, AnArtifactThatGoesGivesBackTheBytesOfItsTexts) {
+TEST_F(ArtifactShowTextsTest, ReleasesTheTextsOfAnUnloadedArtifact) {
     settings.exhibit.memory_mb = 0; // only what is shown
     start(5, true);
     rest();
@@ -106,7 +106,7 @@ TEST_F(TextsComing, AnArtifactThatGoesGivesBackTheBytesOfItsTexts) {
     EXPECT_EQ(show->use().gpu_bytes, first.gpu_bytes);
 }
 
-TEST_F(TextsComing, AnotherLanguageComesAndIsTheSamePicture) {
+TEST_F(ArtifactShowTextsTest, LoadsAnotherLanguageAndDrawsItAsAfterAStart) {
     settings.exhibit.language = "de";
     start(1, true);
     rest();
@@ -129,7 +129,7 @@ TEST_F(TextsComing, AnotherLanguageComesAndIsTheSamePicture) {
     EXPECT_EQ(picture().texels, german.texels);
 }
 
-TEST_F(TextsComing, TheOldLanguageIsSeenUntilItHasFadedOut) {
+TEST_F(ArtifactShowTextsTest, KeepsTheOldLanguageVisibleUntilItHasFadedOut) {
     settings.exhibit.memory_mb = 0;
     start(3, true);
     rest();
@@ -152,7 +152,7 @@ TEST_F(TextsComing, TheOldLanguageIsSeenUntilItHasFadedOut) {
     EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 1));
 }
 
-TEST_F(TextsComing, APackThatIsGoneKeepsItsArtifactWithoutTheTextsThatCameTooLate) {
+TEST_F(ArtifactShowTextsTest, KeepsAnArtifactWhosePackDisappearsBeforeItsTextsLoad) {
     start(1, true);
     rest();
     const exhibit::Presentation before = step();
@@ -166,7 +166,7 @@ TEST_F(TextsComing, APackThatIsGoneKeepsItsArtifactWithoutTheTextsThatCameTooLat
     EXPECT_EQ(show->use().text_gpu_bytes, bytes_of(0, 0) + caption_bytes(0, 1));
 }
 
-TEST_F(TextsComing, TextsOfAnotherPackAreRefused) {
+TEST_F(ArtifactShowTextsTest, RejectsTextsOfAnotherPack) {
     start(1, true);
     pack::Pack other = narration_pack(0);
     other.captions[1].text = "Ein anderer, viel längerer Text";
@@ -185,7 +185,7 @@ TEST_F(TextsComing, TextsOfAnotherPackAreRefused) {
     EXPECT_EQ(refused.error().id, "show.texts_changed") << refused.error().message;
 }
 
-TEST_F(TextsComing, WhatHidesHotspotsCountsAndWhatLiesOnTheTableLeavesLessForArtifacts) {
+TEST_F(ArtifactShowTextsTest, CountsHotspotOccludersAndTablePicturesInTheMemory) {
     start(1, true);
     const std::uint64_t without = show->state(step()).loaded_bytes;
     pack::Pack pointing = narration_pack(0);

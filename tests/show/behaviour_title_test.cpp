@@ -68,7 +68,7 @@ pack::Pack moving_pack(bool set) {
     return whole;
 }
 
-class BehaviourTitles : public Comings {
+class BehaviourTitles : public ArtifactShowTest {
 protected:
     BehaviourTitles() {
         settings.projector.pinhole = settings.projector.pinhole.scaled_to(width, height);
@@ -141,7 +141,7 @@ protected:
     exhibit::Presentation shown;
 };
 
-TEST_F(BehaviourTitles, StandWhereTheExhibitPlacedThemAndNowhereElse) {
+TEST_F(BehaviourTitles, AreDrawnOnlyWhereTheExhibitPlacesThem) {
     const image::Image8 without = picture_of(moving_pack(false));
     EXPECT_FALSE(shown.title) << "an older pack has none that are set";
     const image::Image8 with = picture_of(moving_pack(true));
@@ -165,7 +165,7 @@ TEST_F(BehaviourTitles, AreInTheVisitorsLanguage) {
               picture_of(moving_pack(false), {Command::NextLanguage, Command::NextLanguage}).texels);
 }
 
-TEST_F(BehaviourTitles, AreNotThereWithoutTheButton) {
+TEST_F(BehaviourTitles, AreHiddenWithoutTheButton) {
     settings.panel.keys.pop_back();
     const image::Image8 without = picture_of(moving_pack(false));
     EXPECT_EQ(picture_of(moving_pack(true)).texels, without.texels);
@@ -176,7 +176,7 @@ TEST_F(BehaviourTitles, AreNotThereWithoutTheButton) {
     EXPECT_NE(picture_of(moving_pack(true)).texels, without.texels) << "a script presses it";
 }
 
-TEST_F(BehaviourTitles, AreCountedWithTheirCaption) {
+TEST_F(BehaviourTitles, AreCountedInTheTextMemory) {
     picture_of(moving_pack(false));
     const std::uint64_t without = show->use().text_gpu_bytes;
     picture_of(moving_pack(true));

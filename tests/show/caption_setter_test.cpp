@@ -41,7 +41,7 @@ TEST(CaptionSetter, takes_the_glyph_runs_of_the_captions_language) {
     EXPECT_NEAR(title.size_m.y, typography::caption_title_em * em_m, 2.0 / texels_per_m);
 }
 
-TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
+TEST(CaptionSetter, falls_back_to_the_typeface_for_incompletely_set_captions) {
     const pack::PackCaption caption{"hi", "Title", "A text of several words."};
     const std::vector<typography::CaptionImage> plain = images_of({}, caption);
     const std::vector<typography::CaptionImage> other =
@@ -56,7 +56,7 @@ TEST(CaptionSetter, falls_back_to_the_typeface_for_all_that_was_not_set_whole) {
     }
 }
 
-TEST(CaptionSetter, lays_out_to_the_size_that_it_draws) {
+TEST(CaptionSetter, measures_the_size_that_it_draws) {
     std::vector<pack::SetLanguage> set{synthetic::set_in_squares("ar", {letter("title"), letter("text")})};
     residency::CaptionSetter setter({em_m, texels_per_m});
     const auto titled = [](const std::string& language, const std::string& title, const std::string& text) {
@@ -82,7 +82,7 @@ TEST(CaptionSetter, lays_out_to_the_size_that_it_draws) {
     }
 }
 
-TEST(CaptionSetter, takes_the_attribution_as_one_text_or_in_older_packs_line_by_line) {
+TEST(CaptionSetter, takes_the_attribution_as_one_text_else_line_by_line) {
     pack::PackCaption caption{"ar", "T", "t"};
     caption.maker = "m";
     caption.credit = "c";

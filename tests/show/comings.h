@@ -19,9 +19,9 @@
 
 namespace frustumscreen::synthetic {
 
-class Comings : public ::testing::Test {
+class ArtifactShowTest : public ::testing::Test {
 protected:
-    Comings() {
+    ArtifactShowTest() {
         settings.projector.pinhole = settings.projector.pinhole.scaled_to(320, 200);
         settings.exhibit.captions = false;
     }

@@ -53,7 +53,7 @@ private:
     bool left_ = true;
 };
 
-TEST(DeviceIntake, APressAndAChordAreCommandsOfOneFrame) {
+TEST(DeviceIntake, TurnsPressesAndChordsIntoCommandsOfOneFrame) {
     Inputs inputs;
     inputs.panel = std::make_unique<OnePress>();
     DeviceIntake intake(settings::Settings{}, inputs);
@@ -64,7 +64,7 @@ TEST(DeviceIntake, APressAndAChordAreCommandsOfOneFrame) {
     EXPECT_TRUE(intake.commands().empty());
 }
 
-TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
+TEST(DeviceIntake, PropIsKnownWithoutATracker) {
     Inputs inputs;
     DeviceIntake intake(settings::Settings{}, inputs);
     intake.poll(MonotonicTime{});
@@ -73,7 +73,7 @@ TEST(DeviceIntake, WithoutATrackerThePropStandsWhereItIs) {
 
 /// Two eyes for stereo alone: a fixed viewer has both from the first picture, and a head that a tracker could report none before it
 /// is known.
-TEST(DeviceIntake, KnowsWhoHasTwoEyes) {
+TEST(DeviceIntake, SeparatesTheEyesInStereoUnlessTheHeadIsStillUnknown) {
     struct Case {
         settings::Stereo stereo;
         settings::TrackerKind tracker;
@@ -100,7 +100,7 @@ TEST(DeviceIntake, KnowsWhoHasTwoEyes) {
 }
 
 /// A frustum on the table is followed by the table's filter alone; whatever a hand lifts also by the hand's.
-TEST(DeviceIntake, FollowsThePropByHowItMoves) {
+TEST(DeviceIntake, FiltersThePropsPoseByItsKindOfMotion) {
     class Lifted final : public tracker::Tracker {
     public:
         [[nodiscard]] static tracker::PoseSample at(MonotonicTime now) {
@@ -145,7 +145,7 @@ TEST(DeviceIntake, FollowsThePropByHowItMoves) {
 
 /// A simulated visitor's head may rest without trembling, and wears the glasses all the same; a recorded one that does has put them
 /// down.
-TEST(DeviceIntake, TakesNoGlassesOffASimulatedVisitor) {
+TEST(DeviceIntake, KeepsStereoForAStillSimulatedHead) {
     class StillHead final : public tracker::Tracker {
     public:
         [[nodiscard]] Result<void> poll(MonotonicTime now,
@@ -186,7 +186,7 @@ public:
     [[nodiscard]] DeviceCondition condition() const override { return {DeviceHealth::Away, "panel.missing"}; }
 };
 
-TEST(DeviceIntake, TellsWhichDevicesCannotBeUsed) {
+TEST(DeviceIntake, ReportsUnusableDevices) {
     Inputs inputs;
     inputs.panel = std::make_unique<MissingPanel>();
     inputs.tracker = std::make_unique<tracking::RegisteredTracker>(std::make_unique<FalteringTracker>(),
@@ -215,7 +215,7 @@ void expect_conditions(State last, std::string_view subject, Health away) {
     }
 }
 
-TEST(DeviceIntake, EachStateOfATrackerAndACameraHasItsId) {
+TEST(DeviceIntake, EveryTrackerAndCameraStateHasItsId) {
     expect_conditions(tracker::UsbTrackerState::MetalNear, "tracker.", tracker::TrackerHealth::Away);
     expect_conditions(camera::CameraState::Silent, "camera.", camera::CameraHealth::Away);
     EXPECT_EQ(tracker::condition_of(tracker::UsbTrackerState::Streaming).health, DeviceHealth::Well);
@@ -224,7 +224,7 @@ TEST(DeviceIntake, EachStateOfATrackerAndACameraHasItsId) {
     EXPECT_EQ(camera::condition_of(camera::CameraState::Dark).health, DeviceHealth::Impaired);
 }
 
-TEST(DeviceIntake, AnErrorIsCountedAndTheSamplesBeforeItAreTaken) {
+TEST(DeviceIntake, CountsErrorsAndKeepsTheSamplesBeforeThem) {
     for (const bool followed : {true, false}) {
         settings::Settings settings;
         settings.eye.tracked = followed;

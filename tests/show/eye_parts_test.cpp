@@ -197,7 +197,7 @@ TEST_F(Eyes, EachSeesTheWholePatternAndItsOwnLetterAlone) {
 }
 
 /// The picture is averaged, not thinned out: lines one pixel wide stay.
-TEST_F(Eyes, LinesOfOnePixelAreSeenInAHalf) {
+TEST_F(Eyes, OnePixelLinesStayVisibleInAHalf) {
     const image::Image8 beside = pattern(Stereo::SideBySide, {width, height}, aside);
     const image::Image8 below = pattern(Stereo::TopBottom, {width, height}, aside);
     for (int k = 20; k < 45; ++k) {                                    // between the ticks
@@ -212,7 +212,7 @@ TEST_F(Eyes, LinesOfOnePixelAreSeenInAHalf) {
     }
 }
 
-TEST_F(Eyes, AnAnaglyphHasTheLetterOfTheLeftEyeInRedAndOfTheRightInCyan) {
+TEST_F(Eyes, AnaglyphDrawsTheLeftLetterInRedAndTheRightInCyan) {
     const image::Image8 whole = plain(aside);
     const image::Image8 picture = pattern(Stereo::Anaglyph, {width, height}, aside);
     std::array<image::Image<std::uint8_t>, 3> changed;
@@ -261,7 +261,7 @@ TEST(EyeLetter, HidesNoMarkOfThePattern) {
 }
 
 /// The prop's edges are on top, wherever the prop stands.
-TEST_F(Eyes, ALetterHidesNothingOfTheProp) {
+TEST_F(Eyes, LettersDoNotHideTheProp) {
     const StereoCase& at = cases[2]; // pixel for pixel
     int crossed = 0;
     for (const double x_m : {0.05, 0.1, 0.15, 0.2, 0.25}) {
@@ -346,7 +346,7 @@ TEST_F(Eyes, EachSeesTheCamerasPicture) {
     }
 }
 
-TEST_F(Eyes, APatternThatStaysTheSameAllocatesNothing) {
+TEST_F(Eyes, RedrawingAnUnchangedPatternAllocatesNothing) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted here";
     }
@@ -363,7 +363,7 @@ TEST_F(Eyes, APatternThatStaysTheSameAllocatesNothing) {
 }
 
 /// Where the projector stretches or alternates the picture, the buttons do not offer to measure the table.
-TEST_F(Eyes, TheStaffAreToldHowTheyAreCheckedAndThatStereoMeasuresNothing) {
+TEST_F(Eyes, StaffFactsOfferMeasuringOnlyPixelForPixel) {
     settings.tracker.kind = settings::TrackerKind::Usb;
     const auto facts = [&] { return staff_facts({}, settings, "a driver", exhibit::State::View, 0); };
     for (const Stereo on_eye : {Stereo::Off, Stereo::SideBySide}) {

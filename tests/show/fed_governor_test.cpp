@@ -9,7 +9,7 @@ namespace {
 
 /// A frame may take 0.1 s; a machine that runs tests is faster, so the finer level comes first, and the reported
 /// times decide.
-TEST_F(Comings, FramesThatTakeTooLongLeadToTheCoarserLevel) {
+TEST_F(ArtifactShowTest, SwitchesToTheCoarserLevelWhenFramesTakeTooLong) {
     settings.projector.refresh_hz = 10.0;
     settings.render.error_tolerance_px = 0.12; // of 2.2 mm: the finer level is within it, the coarser is not
     start(1, true);
@@ -31,7 +31,7 @@ TEST_F(Comings, FramesThatTakeTooLongLeadToTheCoarserLevel) {
     EXPECT_EQ(levels.ignored_times, 0U);
 }
 
-TEST_F(Comings, WhatIsNoTimeIsCounted) {
+TEST_F(ArtifactShowTest, CountsFrameTimesThatAreNotNumbers) {
     start(1, true);
     exhibit::Presentation presentation = step();
     rest();

@@ -54,7 +54,7 @@ bool comes(FrozenWindows& windows, std::uint32_t number, const glm::dvec3& eye) 
     });
 }
 
-TEST(FrozenWindows, FramesGoOnWhileTheThreadHangs) {
+TEST(FrozenWindows, FramesDoNotWaitForAHangingThread) {
     FrozenWindows windows({}, false);
     std::promise<void> opens;
     std::shared_future<void> open = opens.get_future().share();
@@ -79,7 +79,7 @@ TEST(FrozenWindows, FramesGoOnWhileTheThreadHangs) {
     EXPECT_TRUE(comes(windows, 1, above));
 }
 
-TEST(FrozenWindows, ThePatchThatIsLookedAtComesWhereverTheEyeGoes) {
+TEST(FrozenWindows, MakesThePatchForEveryDirectionOfTheEye) {
     FrozenWindows windows({}, false);
     windows.begin(7, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
     const ldi::Hemisphere hemisphere(0.5);
@@ -98,7 +98,7 @@ TEST(FrozenWindows, AWorldThatCannotBeReadHasNoPatches) {
     EXPECT_EQ(scene::points_for(*windows.look(1, {&above, 1}, now), above), nullptr);
 }
 
-TEST(FrozenWindows, ThatWaitHaveTheirPatchesInTheFirstFrameAndNoThread) {
+TEST(FrozenWindows, WaitingModeMakesAllPatchesInTheFirstFrameWithoutAThread) {
     FrozenWindows windows({}, true);
     windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
     const scene::WindowPatches& patches = *windows.look(1, {&above, 1}, now);
@@ -152,7 +152,7 @@ TEST(FrozenWindows, EachEyeHasItsOwnFade) {
     EXPECT_EQ(scene::shown_to(patches, eyes[1]).points, nullptr);
 }
 
-TEST(FrozenWindows, OfSimulatedTimeChangeAtOnce) {
+TEST(FrozenWindows, SwitchToPatchesAtOnceInSimulatedTime) {
     FrozenWindows windows({}, true);
     windows.begin(1, set_up([]() -> Result<FrozenWorld> { return a_wall(); }));
     EXPECT_EQ(share_at(windows, now, above), 1.0);
@@ -160,7 +160,7 @@ TEST(FrozenWindows, OfSimulatedTimeChangeAtOnce) {
     EXPECT_EQ(share_at(windows, now, above), 1.0);
 }
 
-TEST(FrozenWindows, MoreThanThereAreJobsForWaitDrawnByTheirParts) {
+TEST(FrozenWindows, AreDrawnByTheirPartsWhileAllJobsAreTaken) {
     std::atomic<bool> is_hanging{false};
     FrozenWindows windows({}, false);
     std::promise<void> opens;
@@ -197,7 +197,7 @@ scene::PlacedLevel level_of(std::size_t triangles) {
     return placed;
 }
 
-TEST(FrozenWindows, PatchesAreChosenWhereTheyTakeLessTime) {
+TEST(FrozenWindows, UsePatchesOnlyWhereTheyAreQuicker) {
     PatchView view;
     view.cameras.width = view.cameras.height = 320;
     view.samples = 4;
@@ -212,7 +212,7 @@ TEST(FrozenWindows, PatchesAreChosenWhereTheyTakeLessTime) {
     EXPECT_FALSE(patches_are_quicker({}, level_of(200'000), view)) << "no cost is known";
 }
 
-TEST(FrozenWindows, AFrameThatFreezesAllocatesNothing) {
+TEST(FrozenWindows, FreezingAWindowAllocatesNothing) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
@@ -249,7 +249,7 @@ TEST(FrozenWindows, AFrameThatFreezesAllocatesNothing) {
     }
 }
 
-TEST(FrozenWindows, PatchesOfAReliefShowALevelThatErrsNoMore) {
+TEST(FrozenWindows, ReliefPatchesUseTheCoarsestLevelWithNoLargerError) {
     pack::PackOutline outline;
     for (const float error : {4e-3F, 2e-3F, 1e-3F}) {
         outline.levels.emplace_back().error.mean_box = error;

@@ -21,7 +21,7 @@ scene::PlacedTorch torch_at(const glm::dvec3& place, const glm::dquat& turn) {
 }
 constexpr glm::dquat downwards{0.0, 1.0, 0.0, 0.0};
 
-TEST(KeptLight, MeetsEachPlaceOfTheWorldAsInTheProp) {
+TEST(KeptLight, LightsEachPointInTheWindowAsInTheProp) {
     const geometry::RigidTransform table_from_prop{glm::angleAxis(0.7, glm::dvec3(0.0, 0.0, 1.0)),
                                                    {0.03, -0.02, 0.0}};
     const scene::PinnedView view = scene::pin_view({.table_from_prop = table_from_prop,
@@ -55,7 +55,7 @@ TEST(KeptLight, MeetsEachPlaceOfTheWorldAsInTheProp) {
     EXPECT_NEAR(in_window.scale, view.scale, 1e-12);
 }
 
-TEST(KeptLight, LeavesOutWhatDoesNotMeetTheWorldAndWhatIsOff) {
+TEST(KeptLight, DropsTorchesThatAreOffOrMissTheWorld) {
     std::array torches{torch_at({0.0, 0.0, 0.5}, downwards), torch_at({0.6, 0.0, 0.5}, downwards),
                        torch_at({0.0, 0.0, 0.5}, glm::dquat(1.0, 0.0, 0.0, 0.0)),
                        torch_at({0.0, 0.0, 0.5}, downwards)};
@@ -68,7 +68,7 @@ TEST(KeptLight, LeavesOutWhatDoesNotMeetTheWorldAndWhatIsOff) {
     EXPECT_EQ(light.house_light(), 1.0) << "without a house's light given";
 }
 
-TEST(KeptLight, LosesTexturesWithTheirArtifactByAFade) {
+TEST(KeptLight, FadesOutTexturesWhenTheirArtifactLeaves) {
     std::array torches{torch_at({0.0, 0.0, 0.5}, downwards), torch_at({0.0, 0.0, 0.5}, downwards),
                        torch_at({0.0, 0.0, 0.5}, downwards)};
     torches[0].picture = scene::TextureId{7};
@@ -104,7 +104,7 @@ TEST(KeptLight, LosesTexturesWithTheirArtifactByAFade) {
     EXPECT_EQ(light.house_light(), 1.0);
 }
 
-TEST(KeptLight, ComesBackWithTheArtifactAndBringsTheHousesLightBackByAFade) {
+TEST(KeptLight, FadesTheHouseLightWhenTheArtifactLeavesOrReturns) {
     std::array torches{torch_at({0.0, 0.0, 0.5}, downwards)};
     torches[0].picture = scene::TextureId{7};
     MonotonicTime now;

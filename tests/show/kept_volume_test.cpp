@@ -16,7 +16,7 @@ protected:
     [[nodiscard]] std::filesystem::path file() const { return folder / "volume.txt"; }
 };
 
-TEST_F(KeptVolume, LastsOverARestart) {
+TEST_F(KeptVolume, SurvivesARestart) {
     EXPECT_EQ(read_kept_volume(file(), -3.0), 0);
     VolumeKeeper keeper(file(), -3.0);
     keeper.note(0);
@@ -29,7 +29,7 @@ TEST_F(KeptVolume, LastsOverARestart) {
     EXPECT_EQ(read_kept_volume(file(), -3.0), 0);
 }
 
-TEST_F(KeptVolume, SettingsWithAnotherVolumeWinForGood) {
+TEST_F(KeptVolume, IsDiscardedWhenTheSettingsVolumeChanges) {
     VolumeKeeper(file(), -3.0).note(6);
     EXPECT_EQ(read_kept_volume(file(), 0.0), 0);
     EXPECT_EQ(read_kept_volume(file(), -3.5), 0);
@@ -37,7 +37,7 @@ TEST_F(KeptVolume, SettingsWithAnotherVolumeWinForGood) {
     EXPECT_EQ(read_kept_volume(file(), -3.0), 0) << "also when the earlier settings come again";
 }
 
-TEST_F(KeptVolume, ASpoiltFileIsNone) {
+TEST_F(KeptVolume, IgnoresAMalformedFile) {
     for (const char* text : {"", "louder_db", "louder_db x over 0\n", "louder_db 6 over 0",
                              "louder_db 6 over 0\nmore", "louder_db 999999999999 over 0\n"}) {
         write(text);
@@ -47,7 +47,7 @@ TEST_F(KeptVolume, ASpoiltFileIsNone) {
     EXPECT_EQ(read_kept_volume(file(), 0.0), 6);
 }
 
-TEST_F(KeptVolume, WithoutAFolderNothingIsKept) {
+TEST_F(KeptVolume, WritesNothingWithoutAFolder) {
     VolumeKeeper none({}, 0.0);
     none.note(3);
     VolumeKeeper gone(folder / "no-such-folder/volume.txt", 0.0);

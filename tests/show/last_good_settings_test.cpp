@@ -23,7 +23,7 @@ protected:
     [[nodiscard]] std::string kept() const { return text("kept.toml"); }
 };
 
-TEST_F(LastGoodSettings, AreKeptAfterHalfAMinuteInOnePiece) {
+TEST_F(LastGoodSettings, AreKeptAfterHalfAMinuteWithoutAFault) {
     SettingsKeeper keeper(folder / "kept.toml", "a = 1\n");
     int second = 0;
     for (; second < 20; ++second) {
@@ -40,14 +40,14 @@ TEST_F(LastGoodSettings, AreKeptAfterHalfAMinuteInOnePiece) {
     EXPECT_EQ(kept(), "a = 1\n");
 }
 
-TEST_F(LastGoodSettings, ASilenceBeginsTheHalfMinuteAnew) {
+TEST_F(LastGoodSettings, AGapInTheReportsRestartsTheHalfMinute) {
     SettingsKeeper keeper(folder / "kept.toml", "a = 1\n");
     keeper.note(at(0));
     keeper.note(at(40));
     EXPECT_EQ(kept(), "");
 }
 
-TEST_F(LastGoodSettings, TheSameOnesAreNotWrittenAgain) {
+TEST_F(LastGoodSettings, AreNotWrittenAgainIfUnchanged) {
     put("kept.toml", "a = 1\n");
     const auto before = std::filesystem::last_write_time(folder / "kept.toml") - std::chrono::hours(1);
     std::filesystem::last_write_time(folder / "kept.toml", before);
@@ -63,7 +63,7 @@ TEST_F(LastGoodSettings, TheSameOnesAreNotWrittenAgain) {
     EXPECT_EQ(kept(), "a = 2\n");
 }
 
-TEST_F(LastGoodSettings, TheirPathsAreThoseOfTheKiosksOwnFile) {
+TEST_F(LastGoodSettings, ResolvePathsAgainstTheKiosksOwnFile) {
     std::filesystem::create_directory(folder / "etc");
     put("etc/kiosk.toml", "not TOML");
     put("kept.toml", "[exhibit]\npacks = [\"a.fspack\"]\n");
@@ -74,7 +74,7 @@ TEST_F(LastGoodSettings, TheirPathsAreThoseOfTheKiosksOwnFile) {
     EXPECT_EQ(used->settings->exhibit.packs.front(), folder / "etc/a.fspack");
 }
 
-TEST_F(LastGoodSettings, TheNewestKeptCalibrationIsUsedWithWhicheverSettingsCount) {
+TEST_F(LastGoodSettings, UseTheNewestCalibrationWithOwnOrKeptSettings) {
     const Result<settings::CheckedSettings> plain = settings::parse_settings("", folder / "kiosk.toml");
     ASSERT_TRUE(plain) << plain.error().message;
     settings::Calibration measured;

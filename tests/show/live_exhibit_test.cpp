@@ -108,7 +108,7 @@ protected:
     MonotonicTime now = start;
 };
 
-TEST_F(Live, TheChordBringsTheStaffsPictureAndEndsIt) {
+TEST_F(Live, ChordOpensAndClosesTheStaffPicture) {
     frame(chord);
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1}));
     EXPECT_EQ(record.times, 2); // the pattern's time does not reach the governor
@@ -121,7 +121,7 @@ TEST_F(Live, TheChordBringsTheStaffsPictureAndEndsIt) {
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 1})); // at first the buffer holds no picture of its own
 }
 
-TEST_F(Live, TwoEyesAreDrawnForStereoAlone) {
+TEST_F(Live, DrawsTwoEyesOnlyInStereo) {
     EXPECT_EQ(record.eyes, 1U);
     settings.eye.stereo = settings::Stereo::Anaglyph;
     show = std::make_unique<LiveExhibit>(settings, std::make_unique<RecordingShow>(record),
@@ -131,7 +131,7 @@ TEST_F(Live, TwoEyesAreDrawnForStereoAlone) {
 }
 
 /// Every page has its own picture; the white and black lights are exactly that, once their words have gone.
-TEST_F(Live, EveryPageIsAnotherPicture) {
+TEST_F(Live, EveryStaffPageHasItsOwnPicture) {
     frame(chord);
     std::vector<std::vector<glm::u8vec4>> seen{picture().texels};
     for (std::size_t page = 1; page < exhibit::staff_page_names.size(); ++page) {
@@ -162,7 +162,7 @@ TEST_F(Live, EveryPageIsAnotherPicture) {
     EXPECT_FALSE(all_are(0));
 }
 
-TEST_F(Live, ThePropsEdgesFollowItWhereThePlaceIsShown) {
+TEST_F(Live, PlacePageFollowsThePropAndTheStatusPageDoesNot) {
     frame(chord);
     tracking::TrackedState moved;
     moved.table_from_prop.translation.x = 0.1;
@@ -173,7 +173,7 @@ TEST_F(Live, ThePropsEdgesFollowItWhereThePlaceIsShown) {
     EXPECT_TRUE(frame({}, moved).drawn);
 }
 
-TEST_F(Live, TheTrackersNumbersAreLiveAndKeepAPace) {
+TEST_F(Live, TrackerPageUpdatesAFewTimesASecond) {
     frame(chord);
     for (int page = 0; page < 5; ++page) {
         turn_page();
@@ -188,7 +188,7 @@ TEST_F(Live, TheTrackersNumbersAreLiveAndKeepAPace) {
 }
 
 /// From the importer's report by the page's button to the run loop, and back.
-TEST_F(Live, AStickThatWaitsIsCopiedToByTheStaffsButton) {
+TEST_F(Live, StaffButtonCopiesToAWaitingStickOnce) {
     const TemporaryFolder own;
     settings.exhibit.import_report = own.path() / "report.json";
     const auto tell = [&](const std::string& id, library::ImportStage stage,
@@ -242,7 +242,7 @@ TEST_F(Live, AStickThatWaitsIsCopiedToByTheStaffsButton) {
     EXPECT_TRUE(is_new());
 }
 
-TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {
+TEST_F(Live, StaffPictureEndsAfterAMinuteOrByTheChord) {
     const MonotonicTime end = now + exhibit::StaffTool::after_press;
     frame(chord);
     now = end - milliseconds(1);
@@ -255,7 +255,7 @@ TEST_F(Live, EndsByItselfAfterAMinuteOrByTheChord) {
     EXPECT_EQ(record.ages, (std::vector<int>{0, 1, 0, 0}));
 }
 
-TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
+TEST_F(Live, StatusPageRedrawsOnlyWhenADeviceStateChanges) {
     frame(chord);
     const image::Image8 before = render::read_colour(display->framebuffer(), 320, 200);
     show->tell(status);
@@ -269,7 +269,7 @@ TEST_F(Live, SaysTheDevicesStatesAndRedrawsOnlyWhenTheyChange) {
     EXPECT_TRUE(frame().drawn);
 }
 
-TEST_F(Live, SaysWhatItsWatchdogSaysOfIt) {
+TEST_F(Live, StatusPageRedrawsWhenTheWatchdogReports) {
     frame(chord);
     status::Environment around;
     around.ends = watch::parse_service_ends("5 watchdog killed KILL\n");
@@ -282,7 +282,7 @@ TEST_F(Live, SaysWhatItsWatchdogSaysOfIt) {
     EXPECT_TRUE(frame().drawn);
 }
 
-TEST_F(Live, SaysThatUnsignedPacksAreAllowed) {
+TEST_F(Live, StatusPageShowsThatUnsignedPacksAreAllowed) {
     frame(chord);
     const image::Image8 before = render::read_colour(display->framebuffer(), 320, 200);
     settings.exhibit.unsigned_packs = pack::UnsignedPacks::Allow;
@@ -320,7 +320,7 @@ double luminance_of(const glm::u8vec4& colour) {
 }
 
 /// All buttons, mostly the fastest possible presses after the chord; the pixels are checked.
-TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecondWhateverIsPressed) {
+TEST_F(Live, NoPixelFlashesMoreThanThreeTimesASecond) {
     int most = 0;
     int patterns = 0;
     for (unsigned seed = 0; seed < 8; ++seed) {

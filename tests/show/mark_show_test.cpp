@@ -9,7 +9,7 @@ namespace {
 constexpr double prop_m = 0.2;
 const glm::dvec2 corner(-0.35, 0.2);
 
-TEST(MarkShow, LiesBesideThePropAndTheWords) {
+TEST(MarkShow, AvoidsThePropAndTheCaption) {
     exhibit::Presentation presentation;
     EXPECT_TRUE(has_space_for_mark(corner, presentation, prop_m));
     EXPECT_FALSE(has_space_for_mark({0.1, 0.1}, presentation, prop_m)) << "the prop stands there";
@@ -23,7 +23,7 @@ TEST(MarkShow, LiesBesideThePropAndTheWords) {
     EXPECT_FALSE(has_space_for_mark(corner, presentation, prop_m));
 }
 
-TEST(MarkShow, LiesOnNoPictureThatIsLit) {
+TEST(MarkShow, AvoidsLitPictures) {
     exhibit::PresentedTable table;
     table.count = 1;
     table.places[0].place.picture = {corner, {0.06, 0.06}, 0};

@@ -146,7 +146,7 @@ protected:
     MonotonicTime now;
 };
 
-TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
+TEST_F(Notice, DrawsAndAllocatesNothingWithoutAReport) {
     const image::Image8 with_words = picture();
     const long before = allocations_so_far();
     for (int k = 0; k < 100; ++k) {
@@ -162,7 +162,7 @@ TEST_F(Notice, WithoutAReportNothingIsDrawnAndNothingAllocated) {
     EXPECT_EQ(picture().texels, with_words.texels);
 }
 
-TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
+TEST_F(Notice, RingShowsTheShareThatIsCopied) {
     const image::Image8 without = picture();
     for (const std::uint64_t done : {150U, 400U, 800U}) {
         put_report(report, report_of(library::ImportStage::Copying, done));
@@ -186,7 +186,7 @@ TEST_F(Notice, TheRingFillsWithWhatIsCopied) {
     }
 }
 
-TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
+TEST_F(Notice, LinesEndAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
     const image::Image8 without = picture();
     const std::string_view shown = show->state().artifact;
     put_report(report, done_with(1));
@@ -210,7 +210,7 @@ TEST_F(Notice, LinesGoAfterTwoMinutesOrAtAPressThatDoesNothingElse) {
     EXPECT_NE(show->state().artifact, shown) << "the next press is a visitor's again";
 }
 
-TEST_F(Notice, PressesAreVisitorsWhileItIsCopiedAndTheChordUndoesNoneOfThem) {
+TEST_F(Notice, PressesChooseArtifactsWhileCopyingAndTheChordUndoesNone) {
     put_report(report, report_of(library::ImportStage::Copying, 100));
     wait(seconds(2));
     const std::string first(show->state().artifact);
@@ -227,7 +227,7 @@ TEST_F(Notice, PressesAreVisitorsWhileItIsCopiedAndTheChordUndoesNoneOfThem) {
     EXPECT_EQ(show->state().artifact, chosen);
 }
 
-TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
+TEST_F(Notice, PressBetweenTwoNoticesEndsTheSecondAndDoesNothingElse) {
     const image::Image8 without = picture();
     const std::string shown(show->state().artifact);
     put_report(report, report_of(library::ImportStage::MayTakeOut, 1000));
@@ -245,7 +245,7 @@ TEST_F(Notice, APressBetweenTwoTextsEndsTheSecondAndDoesNothingElse) {
     EXPECT_EQ(show->state().artifact, shown);
 }
 
-TEST_F(Notice, ItSaysOnceThatTheStickMayBeTakenOut) {
+TEST_F(Notice, AnnouncesOnceThatTheStickMayBeTakenOut) {
     const std::vector<std::int16_t> truth = sound::read_opus(tone())->samples;
     const auto is_loud = [&] {
         return std::count_if(heard.begin(), heard.end(), [](std::int16_t s) { return std::abs(s) > 300; });
@@ -263,7 +263,7 @@ TEST_F(Notice, ItSaysOnceThatTheStickMayBeTakenOut) {
     EXPECT_EQ(is_loud(), loud) << "it is said once";
 }
 
-TEST_F(Notice, BytesThatAreNoReportSayNothing) {
+TEST_F(Notice, IgnoresAFileThatIsNoReport) {
     const image::Image8 without = picture();
     for (const std::string& bytes :
          {std::string("{"), std::string("[]"), std::string(20U << 20U, '['), std::string()}) {
@@ -281,7 +281,7 @@ TEST_F(Notice, BytesThatAreNoReportSayNothing) {
     EXPECT_NE(picture().texels, without.texels);
 }
 
-TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
+TEST_F(Notice, DoesNotShowAnImportThatEndedLongBeforeTheStart) {
     const image::Image8 without = picture();
     put_report(report, done_with(3));
     fs::last_write_time(report, fs::file_time_type::clock::now() - seconds(125));
@@ -295,7 +295,7 @@ TEST_F(Notice, WhatWasOverLongBeforeTheExhibitBeganIsNotShown) {
     EXPECT_TRUE(nlohmann::json::parse(status::status_json(show::RunStatus())).at("import").is_null());
 }
 
-TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
+TEST_F(Notice, ShowsAJustFinishedImportAfterARestart) {
     const image::Image8 without = picture();
     for (const seconds age : {seconds(100), seconds(-100'000)}) { // the wall clock may have been set
         put_report(report, done_with(3));
@@ -305,7 +305,7 @@ TEST_F(Notice, AnExhibitThatStartsAgainStillTellsWhatIsJustOver) {
     }
 }
 
-TEST_F(Notice, AReportThatCannotBeReadForAMomentIsReadAgain) {
+TEST_F(Notice, RereadsAReportThatWasUnreadable) {
     const image::Image8 without = picture();
     const std::string json = library::write_import_report(done_with(1));
     ASSERT_TRUE(write_file(report, as_bytes(std::string(json.size(), ' '))));
@@ -320,7 +320,7 @@ TEST_F(Notice, AReportThatCannotBeReadForAMomentIsReadAgain) {
     EXPECT_NE(picture().texels, without.texels);
 }
 
-TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
+TEST(ImportWatch, ReadsReportsThatAreRenamedIntoPlace) {
     const fs::path file = fs::temp_directory_path() / fmt::format("frustumscreen_report_{}.json", ::getpid());
     fs::remove(file);
     std::atomic<int> drawn{0};
@@ -346,7 +346,7 @@ TEST(ImportWatch, AThreadReadsWhatIsRenamedIntoPlace) {
     fs::remove(file);
 }
 
-TEST(ImportJournal, EachStageAndEachPackIsALine) {
+TEST(ImportJournal, LogsALineForEachStageAndEachPack) {
     show::ImportJournal journal;
     std::vector<std::string> lines;
     const auto note = [&](const library::ImportReport& report, bool is_old = false) {
@@ -378,7 +378,7 @@ TEST(ImportJournal, EachStageAndEachPackIsALine) {
     EXPECT_EQ(lines[before + 1], "stick: 0.fspack: taken: Title 0");
 }
 
-TEST(ImportJournal, WhatIsOverIsToldToItsEndBeforeTheNextOne) {
+TEST(ImportJournal, LogsAFinishedImportCompletelyBeforeTheNext) {
     show::ImportJournal journal;
     std::vector<std::string> lines;
     const auto note = [&](const library::ImportReport& report) {

@@ -17,7 +17,7 @@ std::int64_t allocated_bytes() {
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-class OneEye : public Comings {
+class OneEye : public ArtifactShowTest {
 protected:
     struct Held {
         int draw_calls = 0;     ///< of a whole frame
@@ -45,7 +45,7 @@ protected:
     }
 };
 
-TEST_F(OneEye, IsDrawnOnceAndHasThePlansOfOnePicture) {
+TEST_F(OneEye, IsDrawnOnceAndHasOnePlan) {
     const std::int64_t before = allocated_bytes();
     const scene::FramePlan plan = scene::make_plan(settings::make_prop(settings.prop), 0, 1);
     const std::int64_t plan_bytes = allocated_bytes() - before;

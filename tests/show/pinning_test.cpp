@@ -12,7 +12,7 @@
 namespace frustumscreen::synthetic {
 namespace {
 
-class Pinning : public Comings {
+class Pinning : public ArtifactShowTest {
 protected:
     /// Steps once with this press; returns the allocations of the drawing.
     long drawn_with(std::span<const settings::Command> commands) {
@@ -86,7 +86,7 @@ protected:
     const std::array<settings::Command, 1> press{settings::Command::Window};
 };
 
-TEST_F(PinnedLight, StaysInAFrozenWindowAndGoesOnInALiveOne) {
+TEST_F(PinnedLight, StaysInAFrozenWindowAndFollowsTheTorchInALiveOne) {
     const Pictures unlit = pinned(false, false);
     for (const bool live : {false, true}) {
         const Pictures lit = pinned(true, live);
@@ -119,7 +119,7 @@ pack::Pack pack_with_picture() {
     return pack;
 }
 
-TEST_F(PinnedLight, OfAPictureFadesOutOfAFrozenWindowWhenAnotherArtifactComes) {
+TEST_F(PinnedLight, PictureFadesOutOfAFrozenWindowWhenTheArtifactChanges) {
     ASSERT_TRUE(write_file(files.files().front(), pack::write_pack(pack_with_picture()).value()));
     settings.windows = {.count = 1, .width_m = 0.12, .depth_m = 0.12};
     settings.torch.source = settings::TorchSource::Tracker;
@@ -161,7 +161,7 @@ TEST_F(PinnedLight, OfAPictureFadesOutOfAFrozenWindowWhenAnotherArtifactComes) {
     EXPECT_GE(fading, 15);
 }
 
-TEST_F(Pinning, AFrameThatPinsAllocatesNothing) {
+TEST_F(Pinning, PinningAWindowAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

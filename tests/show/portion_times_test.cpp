@@ -31,7 +31,7 @@ void expect_times(const std::vector<Nanoseconds>& times, const std::vector<doubl
 
 } // namespace
 
-TEST(PortionTimes, are_shares_of_the_speech_without_pauses) {
+TEST(PortionTimes, divide_speech_without_pauses_by_the_shares) {
     expect_times(residency::portion_times(shares, prompt(20.0, {})), {0.0, 10.0, 15.0});
     expect_times(residency::portion_times({}, prompt(20.0, {})), {});
     EXPECT_EQ(residency::portion_times(shares, sound::Prompt()).size(), 3U);
@@ -45,7 +45,7 @@ TEST(PortionTimes, are_moved_to_the_longest_pause_nearby) {
                  {0.0, 10.0, 15.0});
 }
 
-TEST(PortionTimes, ascend_whatever_the_pauses_are) {
+TEST(PortionTimes, ascend_for_any_pauses) {
     for (unsigned seed = 1; seed < 200; ++seed) {
         std::vector<std::pair<double, double>> pauses;
         double at_s = 0.0;

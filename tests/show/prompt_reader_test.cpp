@@ -56,7 +56,7 @@ protected:
 
 } // namespace
 
-TEST_F(PromptReading, reads_from_the_pack_what_the_decoder_reads) {
+TEST_F(PromptReading, reads_the_same_samples_as_the_decoder) {
     residency::PromptReader reader;
     const residency::SharedRecording english = in_pack("en");
     EXPECT_EQ(reader.find(english), nullptr) << "nobody wants it";
@@ -68,7 +68,7 @@ TEST_F(PromptReading, reads_from_the_pack_what_the_decoder_reads) {
     EXPECT_EQ(reading->portions, std::vector{Nanoseconds(0)});
 }
 
-TEST_F(PromptReading, what_cannot_be_read_is_silent_and_said_once) {
+TEST_F(PromptReading, logs_each_unreadable_recording_once_and_stays_silent) {
     const residency::SharedRecording bad = in_pack("de");
     const residency::SharedRecording missing = in_pack("fr");
     const residency::SharedRecording damaged = in_memory("damaged", Bytes(100, std::byte(7)));
@@ -96,7 +96,7 @@ TEST_F(PromptReading, what_cannot_be_read_is_silent_and_said_once) {
     }
 }
 
-TEST_F(PromptReading, frees_the_description_that_is_not_wanted_any_more) {
+TEST_F(PromptReading, frees_a_description_that_is_no_longer_wanted) {
     residency::PromptReader reader;
     const residency::SharedRecording english = in_pack("en");
     reader.want(residency::SpokenUse::Description, english);
@@ -109,7 +109,7 @@ TEST_F(PromptReading, frees_the_description_that_is_not_wanted_any_more) {
     EXPECT_EQ(reader.find(english), nullptr);
 }
 
-TEST_F(PromptReading, keeps_the_words_that_were_wanted_last) {
+TEST_F(PromptReading, keeps_the_most_recently_wanted_words) {
     residency::PromptReader reader;
     std::vector<residency::SharedRecording> words;
     for (std::size_t k = 0; k <= residency::PromptReader::words_kept; ++k) {
@@ -128,7 +128,7 @@ TEST_F(PromptReading, keeps_the_words_that_were_wanted_last) {
     }
 }
 
-TEST_F(PromptReading, the_newest_want_wins_and_a_word_goes_first) {
+TEST_F(PromptReading, reads_the_word_and_only_the_newest_description) {
     residency::PromptReader reader;
     std::vector<residency::SharedRecording> wanted;
     for (int k = 0; k < 50; ++k) {
@@ -145,7 +145,7 @@ TEST_F(PromptReading, the_newest_want_wins_and_a_word_goes_first) {
     EXPECT_NE(reader.find(word), nullptr);
 }
 
-TEST_F(PromptReading, always_an_answer_waits_for_it) {
+TEST_F(PromptReading, find_waits_for_the_reading_in_always_mode) {
     residency::PromptReader reader(residency::PromptReader::Answer::Always);
     const residency::SharedRecording english = in_pack("en");
     EXPECT_EQ(reader.find(english), nullptr);
@@ -154,7 +154,7 @@ TEST_F(PromptReading, always_an_answer_waits_for_it) {
     EXPECT_TRUE(reader.find(english)->prompt);
 }
 
-TEST_F(PromptReading, ends_in_the_middle_of_its_work) {
+TEST_F(PromptReading, destructor_ends_the_thread_during_a_read) {
     const auto threads = [] { // as the kernel lists them
         return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
     };

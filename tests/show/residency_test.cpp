@@ -99,7 +99,7 @@ void settle(Scene& scene) {
     }
 }
 
-TEST(Residency, IsTheBestSetThatTheBudgetAllows) {
+TEST(Residency, LoadsTheBestSetThatTheBudgetAllows) {
     std::mt19937 random(7);
     for (int round = 0; round < 20000; ++round) {
         Scene scene;
@@ -123,14 +123,14 @@ TEST(Residency, IsTheBestSetThatTheBudgetAllows) {
     }
 }
 
-TEST(Residency, KeepsWhatItHasWhileThereIsRoom) {
+TEST(Residency, UnloadsTheLeastRecentlyShownOnlyWhenOverBudget) {
     Scene scene{{{4, true, false, 3}, {4, true, false, 1}, {4, true, false, 2}}, 0, {0}, 12};
     EXPECT_EQ(scene.step(), residency::ResidencyStep{});
     scene.budget = 11;
     EXPECT_EQ(scene.step(), (residency::ResidencyStep{1, std::nullopt})); // least recently shown
 }
 
-TEST(Residency, WaitsForNothingThatIsLeftOut) {
+TEST(Residency, DoesNotLoadArtifactsThatAreLeftOut) {
     const Scene scene{{{4, true, false, 3}, {4, false, true, 0}}, 0, {1, 1}, 12};
     EXPECT_EQ(scene.step(), residency::ResidencyStep{});
 }

@@ -116,7 +116,7 @@ glm::dvec3 pixel_on(double x, double y) {
     return {-0.6 + 1.2 * x / width, 0.7, 0.85 - 0.675 * y / height};
 }
 
-TEST(RoomShow, BoxesThatInterlockAreRightToThePixel) {
+TEST(RoomShow, DrawsInterlockingBoxesPixelExact) {
     const std::array<glm::u8vec4, 3> colours{{{250, 0, 0, 255}, {0, 250, 0, 255}, {0, 0, 250, 255}}};
     const std::array<glm::dvec3, 3> sizes{{{1.0, 0.3, 0.4}, {0.3, 1.0, 0.5}, {0.4, 0.4, 1.0}}};
     Shown shown;
@@ -186,7 +186,7 @@ TEST(RoomShow, BoxesThatInterlockAreRightToThePixel) {
     EXPECT_GT(checked, 20'000U);
 }
 
-TEST(RoomShow, LeavingOutWhatIsHiddenChangesNoPixel) {
+TEST(RoomShow, CullingHiddenObjectsChangesNoPixel) {
     std::array<std::unique_ptr<Shown>, 2> both{std::make_unique<Shown>(), std::make_unique<Shown>()};
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -226,7 +226,7 @@ TEST(RoomShow, LeavingOutWhatIsHiddenChangesNoPixel) {
     }
 }
 
-TEST(RoomShow, WhatMovesIsDrawnWhereItIsThen) {
+TEST(RoomShow, DrawsMovingObjectsAtTheirCurrentPlace) {
     Shown moving;
     Shown still;
     moving.pack("rings.fspack", ring_pack());
@@ -250,7 +250,7 @@ TEST(RoomShow, WhatMovesIsDrawnWhereItIsThen) {
     EXPECT_LE(other, 3U) << "sin and cos are rounded";
 }
 
-TEST(RoomShow, AnObjectChangesItsLevelByAFade) {
+TEST(RoomShow, FadesAnObjectBetweenLevels) {
     Shown shown;
     shown.pack("rings.fspack", ring_pack());
     shown.object("rings.fspack", {0.0, 4.0, 0.3}, 0.5);
@@ -275,7 +275,7 @@ TEST(RoomShow, AnObjectChangesItsLevelByAFade) {
     EXPECT_GT(shown.show->error_mm(), far_mm) << "nearer to the screen a pixel is a wider angle";
 }
 
-TEST(RoomShow, ShortOfTimeItErrsMoreAndKeepsItsBudget) {
+TEST(RoomShow, AllowsALargerErrorWhenTheTimeBudgetIsShort) {
     Shown shown;
     shown.pack("rings.fspack", ring_pack());
     for (int k = 0; k < 16; ++k) {
@@ -297,7 +297,7 @@ TEST(RoomShow, ShortOfTimeItErrsMoreAndKeepsItsBudget) {
     EXPECT_DOUBLE_EQ(shown.show->error_mm(), best_mm);
 }
 
-TEST(RoomShow, NothingIsAllocatedOnAWayThatWasWalkedBefore) {
+TEST(RoomShow, RepeatingAWalkAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
@@ -385,7 +385,7 @@ TEST(RoomModels, KeepsItsBudgetAndUnloadsWhatIsLeastNeeded) {
     EXPECT_EQ(frame({9.0, 3.0, 8.0, 4.0}, 3), "03") << "what is on show stays";
 }
 
-TEST(RoomShow, LiveAnObjectComesWhenItIsLoadedAndAMissingOneIsSaid) {
+TEST(RoomShow, LiveFadesInLoadedObjectsAndReportsUnusablePacks) {
     Shown shown;
     shown.pack("rings.fspack", ring_pack());
     shown.pack("box.fspack", box_pack({1.0, 1.0, 1.0}, {250, 0, 0, 255}));

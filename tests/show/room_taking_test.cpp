@@ -154,7 +154,7 @@ size_m = 0.40
 
 constexpr std::array next_artifact{settings::Command::NextArtifact};
 
-TEST_F(TakenFromRoom, WithoutAVisitorEverythingStandsInTheRoom) {
+TEST_F(TakenFromRoom, AllObjectsStandInTheRoomWithoutAVisitor) {
     wait(milliseconds(1000));
     EXPECT_TRUE(live->taken().empty());
     EXPECT_EQ(count(prop_picture(), 0), 0);
@@ -163,7 +163,7 @@ TEST_F(TakenFromRoom, WithoutAVisitorEverythingStandsInTheRoom) {
     EXPECT_GT(count(screen, 1), 500);
 }
 
-TEST_F(TakenFromRoom, TheFirstTouchBringsAnArtifactIntoThePropAndARestPutsItBack) {
+TEST_F(TakenFromRoom, FirstTouchTakesAnArtifactAndInactivityPutsItBack) {
     wait(milliseconds(400));
     const int stands = count(screen_picture(), 0);
     touch();
@@ -183,7 +183,7 @@ TEST_F(TakenFromRoom, TheFirstTouchBringsAnArtifactIntoThePropAndARestPutsItBack
     EXPECT_EQ(count(screen_picture(), 0), stands);
 }
 
-TEST_F(TakenFromRoom, AButtonTakesOneAndPutsTheOtherBackInBothPictures) {
+TEST_F(TakenFromRoom, ButtonSwapsArtifactsBetweenPropAndScreen) {
     touch();
     wait(milliseconds(3000));
     step(next_artifact);
@@ -212,7 +212,7 @@ TEST_F(TakenFromRoom, AButtonTakesOneAndPutsTheOtherBackInBothPictures) {
     EXPECT_TRUE(live->taken().empty());
 }
 
-TEST_F(TakenFromRoom, APropHeldBeforeAnObjectTakesThatInstance) {
+TEST_F(TakenFromRoom, HoldingThePropBeforeAnObjectTakesThatInstance) {
     touch();
     wait(milliseconds(3000));
     // From the eye to the middle of the far green object, at a third of the way.
@@ -234,7 +234,7 @@ TEST_F(TakenFromRoom, APropHeldBeforeAnObjectTakesThatInstance) {
 }
 
 /// The words' file has an invitation of 20 letters, and one of three where there is a room.
-TEST(InvitationToARoom, TakesThePlaceOfTheOtherWhereThereIsARoom) {
+TEST(InvitationToARoom, ReplacesTheGeneralInvitationWhereThereIsARoom) {
     const TemporaryFolder folder;
     pack::LanguageWords words = block_words("en", pack::TextDirection::LeftToRight);
     for (const auto& [from, to] : {std::pair("stick.found", "attract_line"), {"stick.taken", "room_line"}}) {
@@ -262,7 +262,7 @@ TEST(InvitationToARoom, TakesThePlaceOfTheOtherWhereThereIsARoom) {
     EXPECT_EQ(show::read_advice_words(request)->languages[0].texts[0].key, "attract_line");
 }
 
-TEST_F(TakenFromRoom, AStepAllocatesNothing) {
+TEST_F(TakenFromRoom, SteppingAllocatesNothing) {
     touch();
     step(next_artifact);
     wait(milliseconds(3000));

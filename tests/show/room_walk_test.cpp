@@ -43,7 +43,7 @@ protected:
     }
 };
 
-TEST_F(RoomWalk, AnObjectStandsForTheArtifactOfItsKeyElseOfItsPacksIdElseOfItsFile) {
+TEST_F(RoomWalk, MatchesObjectsToArtifactsByKeyElsePackIdElseFile) {
     const auto made = taking(R"([[object]]
 pack = "0.fspack"
 place_m = [-0.45, 1.0, 0.4]
@@ -73,7 +73,7 @@ size_m = 0.2
     EXPECT_FALSE(ahead(*made, 0.0));  // between two
 }
 
-TEST_F(RoomWalk, APackThatIsNotThereIsSaidWithItsName) {
+TEST_F(RoomWalk, NamesAMissingPack) {
     const room::Room room =
         room::parse_room("[[object]]\npack = \"none.fspack\"\n", folder / "room.toml").value();
     const auto made = show::RoomTaking::create({}, room, start);
@@ -82,7 +82,7 @@ TEST_F(RoomWalk, APackThatIsNotThereIsSaidWithItsName) {
 }
 
 /// Three artifacts, of which two have an object. Loading takes a while.
-TEST_F(RoomWalk, WhateverIsPressedEachArtifactIsInOnePlaceAndThePropDoesNotFlash) {
+TEST_F(RoomWalk, RandomPressesKeepEachArtifactInOnePlaceWithoutFlashes) {
     constexpr std::array commands{settings::Command::NextArtifact, settings::Command::PreviousArtifact,
                                   settings::Command::NextLanguage, settings::Command::Choose};
     int in_prop_frames = 0, moving_frames = 0;

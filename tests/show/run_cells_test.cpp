@@ -120,7 +120,7 @@ protected:
     MonotonicTime now_;
 };
 
-TEST_F(CellsOnShow, TakeTheWholesPlaceWhileTheyMoveAndGiveItBackAtRest) {
+TEST_F(CellsOnShow, ReplaceTheWholeWhileTheyMove) {
     load(pack_of_cells(1, {slide(false)}), "level1");
     upload();
     const image::Image8 whole = picture();
@@ -162,7 +162,7 @@ TEST_F(CellsOnShow, AreDrawnAtRestIfThePackSaysSo) {
     }
 }
 
-TEST_F(CellsOnShow, AtRestGiveWayToATechniqueThatIsAskedFor) {
+TEST_F(CellsOnShow, AtRestAreNotLoadedForAFixedTechnique) {
     load(pack_of_cells(1, {}, true), "level1");
     EXPECT_EQ(known_.world, nullptr);
     load(pack_of_cells(1, {}), "auto");
@@ -187,7 +187,7 @@ TEST_F(CellsOnShow, AreRedrawnOnlyWhileTheyMove) {
     }
 }
 
-TEST_F(CellsOnShow, AllocateNothingInAFrame) {
+TEST_F(CellsOnShow, DrawingAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
@@ -225,7 +225,7 @@ TEST_F(CellsOnShow, AreCountedAndReleasedWithTheirArtifact) {
 }
 
 /// The finer level of both cells takes twice the deadline, the coarser one a third.
-TEST_F(CellsOnShow, AreDrawnMoreCoarselyWhereTimeIsShort) {
+TEST_F(CellsOnShow, AreDrawnCoarserWhenTimeIsShort) {
     load(pack_of_cells(2, {slide(true)}), "auto");
     ASSERT_EQ(cells().uses().size(), 4U) << "two levels of each cell";
     upload();
@@ -245,7 +245,7 @@ TEST_F(CellsOnShow, AreDrawnMoreCoarselyWhereTimeIsShort) {
     EXPECT_GE(cells().switches(), 1U);
 }
 
-TEST_F(CellsOnShow, AnArtifactThatNeverMovesReadsAndKeepsNothingOfItsCells) {
+TEST_F(CellsOnShow, AreNotLoadedForAnArtifactThatNeverMoves) {
     load(pack_of_cells(2, {}), "level1");
     const pack::Pack plain = numbered_pack(0);
     EXPECT_EQ(known_.world, nullptr);

@@ -62,7 +62,7 @@ TEST(RunHours, SleepsAndWakesByTheTimetable) {
     EXPECT_EQ(kiosk.run.light(), 1.0);
 }
 
-TEST(RunHours, APressWakesIt) {
+TEST(RunHours, AButtonPressWakesTheExhibit) {
     Kiosk kiosk;
     kiosk.live(hours(7));
     ASSERT_TRUE(kiosk.run.asleep());
@@ -74,7 +74,7 @@ TEST(RunHours, APressWakesIt) {
     EXPECT_TRUE(kiosk.run.asleep());
 }
 
-TEST(RunHours, AClockThatWasNeverSetKeepsItAwake) {
+TEST(RunHours, AnUnsetClockKeepsTheExhibitAwake) {
     Kiosk kiosk;
     kiosk.wall = sys_days(std::chrono::year(1970) / 1 / 1) + hours(3);
     kiosk.live(hours(30));
@@ -88,7 +88,7 @@ TEST(RunHours, AClockThatWasNeverSetKeepsItAwake) {
     EXPECT_NE(kiosk.run.status().clock.view().find("set forward"), std::string::npos);
 }
 
-TEST(RunHours, ALeapShiftsTheTimetableAndIsTold) {
+TEST(RunHours, AClockJumpShiftsTheTimetableAndIsReported) {
     Kiosk kiosk;
     kiosk.live(hours(7));
     ASSERT_TRUE(kiosk.run.asleep());
@@ -107,13 +107,13 @@ TEST(RunHours, ALeapShiftsTheTimetableAndIsTold) {
     EXPECT_EQ(kiosk.run.light(), 1.0);
 }
 
-TEST(RunHours, SaysThatTheZoneIsMissing) {
+TEST(RunHours, ReportsAMissingTimeZone) {
     Kiosk kiosk(from_ten_to_six(), "Europe/Nowhere");
     kiosk.live(seconds(1));
     EXPECT_NE(kiosk.why().find("no time zone \"Europe/Nowhere\""), std::string::npos) << kiosk.why();
 }
 
-TEST(RunHours, WithoutATimetableSayNothing) {
+TEST(RunHours, StaysAwakeAndReportsNothingWithoutATimetable) {
     Kiosk kiosk{settings::HoursSettings()};
     kiosk.live(hours(30));
     EXPECT_EQ(kiosk.run.light(), 1.0);

@@ -154,7 +154,7 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
     EXPECT_EQ(levels.state().switches, 2U);
 }
 
-TEST(RunLevels, OfAFixedTechniqueStay) {
+TEST(RunLevels, FixedTechniqueNeverSwitches) {
     Show show;
     for (const auto& [technique, level] : {std::pair("level0", "level0"), std::pair("finest", "level1")}) {
         residency::RunLevels levels = show.levels(technique);
@@ -202,7 +202,7 @@ TEST(RunLevels, ShareTheTextureOfTheirPack) {
     EXPECT_EQ(show.picture(levels).texels, coarse_alone.texels);
 }
 
-TEST(RunLevels, LeaveNothingInTheStoreWhenTheyGoOrCannotCome) {
+TEST(RunLevels, LeaveNothingInTheStoreAfterReleaseOrFailedUpload) {
     Show show;
     residency::RunLevels levels = show.upload("auto").value();
     EXPECT_EQ(levels.uses().size(), 2U);
@@ -215,7 +215,7 @@ TEST(RunLevels, LeaveNothingInTheStoreWhenTheyGoOrCannotCome) {
     EXPECT_EQ(show.renderer.store().bytes(), 0U);
 }
 
-TEST(RunLevels, CountGarbageTimes) {
+TEST(RunLevels, CountInvalidFrameTimes) {
     Show show;
     residency::RunLevels levels = show.levels("auto");
     show.play(levels, 50, std::nan(""));
@@ -224,7 +224,7 @@ TEST(RunLevels, CountGarbageTimes) {
     EXPECT_EQ(levels.state().level, "level1");
 }
 
-TEST(RunLevels, AllocateNothingInAFrame) {
+TEST(RunLevels, DrawingAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

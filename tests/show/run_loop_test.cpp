@@ -108,7 +108,7 @@ public:
     int while_quiet = 0, while_used = 0;
 };
 
-TEST(RunLoop, MarksOfLightAreShownWhileNobodyIsThere) {
+TEST(RunLoop, ShowsDriftMarksOnlyWhileNobodyIsThere) {
     const MonotonicTime start = monotonic_now();
     QuietShow show;
     show.comes = start + seconds(62);
@@ -152,7 +152,7 @@ public:
     double min_ms = 1.0;
 };
 
-TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
+TEST(RunLoop, ReportsTheTimeOfEachDrawnFrameToTheShow) {
     const MonotonicTime start = monotonic_now();
     TimedShow show;
     Inputs inputs;
@@ -163,13 +163,13 @@ TEST(RunLoop, TellsTheShowTheTimeOfEachFrameThatWasDrawn) {
     EXPECT_GT(show.min_ms, 0.0);
 }
 
-TEST(RunLoop, EndsWhereNothingCanBeShownForAMinute) {
+TEST(RunLoop, EndsIfNothingCanBeShownForAMinute) {
     const Result<LoopResult> ended = run_with(seconds(10), seconds(200));
     ASSERT_FALSE(ended);
     EXPECT_EQ(ended.error().kind, ErrorKind::BadConfiguration);
 }
 
-TEST(RunLoop, GoesOnWhereSomethingComesBack) {
+TEST(RunLoop, ContinuesIfArtifactsReturnWithinAMinute) {
     const Result<LoopResult> run = run_with(seconds(10), seconds(69));
     ASSERT_TRUE(run) << run.error().message;
     EXPECT_NEAR(run->status.uptime_s.value_or(0.0), 200.0, 0.1);

@@ -15,7 +15,7 @@
 namespace frustumscreen::show {
 namespace {
 
-TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
+TEST(RunReport, QuantilesCoverTheRecentFramesOnly) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> ms(1.0F, 30.0F);
     RecentFrameTimes times(500);
@@ -31,7 +31,7 @@ TEST(RunReport, QuantilesAreThoseOfTheSortedFramesOfTheWindow) {
     EXPECT_EQ(RecentFrameTimes(10).quantile(0.5), 0.0);
 }
 
-TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
+TEST(RunReport, FrameListQuotesTitlesWithCommas) {
     const std::string csv = frames_csv(
         {{1000, 2.5F, scene::ErrorEstimate{0.25, 0.5}, true, "Bowl, \"blue\"", "level2", "view", "en", {}}});
     EXPECT_EQ(csv,
@@ -39,7 +39,7 @@ TEST(RunReport, TheListOfFramesQuotesTitlesWithCommas) {
               "0,1000,2.500,level2,0.2500,1,\"Bowl, \"\"blue\"\"\",view,en,,0.5000\n");
 }
 
-TEST(RunReport, TheListOfFramesNamesWhatIsTold) {
+TEST(RunReport, FrameListNamesTheSpokenText) {
     FrameRow row;
     const auto ending = [&](ToldText told) {
         row.told = told;
@@ -52,7 +52,7 @@ TEST(RunReport, TheListOfFramesNamesWhatIsTold) {
     EXPECT_EQ(ending({ToldText::Kind::Words, 0}), ",words,\n");
 }
 
-TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
+TEST(RunReport, StatusFileHoldsOnlyTheLatestStatus) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("status_" + std::to_string(::getpid()) + ".json");
     const auto left_out = std::make_shared<const std::vector<library::UnshownPack>>(
@@ -106,7 +106,7 @@ TEST(RunReport, TheStatusFileHoldsTheLatestStatusAndOnlyThat) {
     nowhere.post({});
 }
 
-TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
+TEST(RunReport, StatusContainsThePresentedPictureAndTheCounts) {
     RunStatus status;
     status.health = "frozen";
     status.presented = {std::uint8_t{7}, {0.1, 0.2, 0.3}, {0.5, 0.5, 0.5, 0.5}, {0.0, -0.5, 0.25}, true};
@@ -148,7 +148,7 @@ TEST(RunReport, WhatIsPresentedAndCountedIsInTheStatus) {
     EXPECT_EQ(json.at("boot_id"), boot);
 }
 
-TEST(RunReport, AHangIsWrittenIntoTheLatestStatusAndSoIsItsEnd) {
+TEST(RunReport, StatusFileRecordsTheBeginAndEndOfAHang) {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("hang_" + std::to_string(::getpid()) + ".json");
     const auto comes = [&file](std::string_view health) {

@@ -87,13 +87,13 @@ TEST_F(RunWatchTest, IsReadyOnlyWhenThePictureIsOn) {
     EXPECT_EQ(ready, 1);
 }
 
-TEST_F(RunWatchTest, StarvesWhenTheDisplaysThreadHangs) {
+TEST_F(RunWatchTest, StopsFeedingWhenTheDisplayThreadHangs) {
     projector.promise = now + seconds(5);
     EXPECT_GE(meals_in(seconds(5), true), 4);
     EXPECT_LE(meals_in(seconds(5), true), 1);
 }
 
-TEST_F(RunWatchTest, FeedsWhileWhatIsShownChangesAndSaysWhyItDoesNot) {
+TEST_F(RunWatchTest, FeedsWhileThePictureChangesAndElseLogsTheReason) {
     const int meals = meals_in(seconds(10), true);
     EXPECT_GE(meals, 9);
     EXPECT_LE(meals, 11);
@@ -107,7 +107,7 @@ TEST_F(RunWatchTest, FeedsWhileWhatIsShownChangesAndSaysWhyItDoesNot) {
     EXPECT_GE(meals_in(seconds(10), true), 9);
 }
 
-TEST_F(RunWatchTest, NotesADiskThatHangsAndThatItAnswersAgain) {
+TEST_F(RunWatchTest, LogsWhenTheLibraryDiskHangsAndAnswersAgain) {
     RunStatus status;
     ::testing::internal::CaptureStderr();
     watch->note(status);
@@ -122,7 +122,7 @@ TEST_F(RunWatchTest, NotesADiskThatHangsAndThatItAnswersAgain) {
         "frustumscreen: set: the library's disk answers again\n");
 }
 
-TEST_F(RunWatchTest, NotesEachChangeOnce) {
+TEST_F(RunWatchTest, LogsEachChangeOnce) {
     RunStatus status;
     status.artifact = "Cat";
     status.language = "en";

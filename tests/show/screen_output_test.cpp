@@ -136,7 +136,7 @@ protected:
     std::unique_ptr<ScreenOutput> screen; ///< closed first
 };
 
-TEST_F(Screen, DrawsWhatChangedAndLeavesTheProjectorsContext) {
+TEST_F(Screen, DrawsOnlyChangesAndRestoresTheProjectorsContext) {
     make();
     EXPECT_EQ(log.lines, (std::vector<std::string>{"screen current", "projector current"}));
     log.lines.clear();
@@ -159,7 +159,7 @@ TEST_F(Screen, DrawsWhatChangedAndLeavesTheProjectorsContext) {
     EXPECT_EQ(status.screen_picture->held_up, 0U);
 }
 
-TEST_F(Screen, SaysOfItselfWhatAProjectorSays) {
+TEST_F(Screen, RewordsTheProjectorsStatesForAScreen) {
     make();
     const auto says = [&](std::string_view of_projector) {
         display->state_ = of_projector;
@@ -173,7 +173,7 @@ TEST_F(Screen, SaysOfItselfWhatAProjectorSays) {
               "a screen is at another graphics card; it is opened again while nobody uses the exhibit");
 }
 
-TEST_F(Screen, BothEyesAreThoseOfTheVisitor) {
+TEST_F(Screen, DrawsBothEyesAroundTheVisitorsHead) {
     settings.screen.stereo = settings::OutputStereo::SideBySide;
     settings.eye.interocular_mm = 60.0;
     state.eye_m = {0.1, -0.6, 0.5};
@@ -185,7 +185,7 @@ TEST_F(Screen, BothEyesAreThoseOfTheVisitor) {
     EXPECT_NEAR(glm::distance(0.5 * (drawn_eyes_m[0] + drawn_eyes_m[1]), state.eye_m), 0.0, 1e-12);
 }
 
-TEST_F(Screen, APictureThatIsNotShownYetIsNotWaitedFor) {
+TEST_F(Screen, DoesNotWaitForAPictureThatIsNotShownYet) {
     make();
     frames(5);
     display->busy = true;
@@ -203,7 +203,7 @@ TEST_F(Screen, APictureThatIsNotShownYetIsNotWaitedFor) {
     EXPECT_EQ(told().screen_picture->health, "well");
 }
 
-TEST_F(Screen, APictureThatIsNotTheOneDrawnIsTold) {
+TEST_F(Screen, ReportsAFrozenPicture) {
     make();
     frames(60);
     EXPECT_EQ(told().screen_picture->health, "well");
@@ -212,7 +212,7 @@ TEST_F(Screen, APictureThatIsNotTheOneDrawnIsTold) {
     EXPECT_EQ(told().screen_picture->health, "frozen");
 }
 
-TEST_F(Screen, ARoomThatCannotBeReadIsToldOnceAndNotReadAgain) {
+TEST_F(Screen, ReportsAnUnreadableRoomAndDoesNotReadItAgain) {
     no_room = true;
     make();
     frames(500, false, true);
@@ -226,7 +226,7 @@ TEST_F(Screen, ARoomThatCannotBeReadIsToldOnceAndNotReadAgain) {
     EXPECT_EQ(status.devices.screen.id, "room.no_file");
 }
 
-TEST_F(Screen, ADisplayThatIsNotThereIsLookedForWhileNobodyUsesTheExhibit) {
+TEST_F(Screen, RetriesAMissingDisplayOnlyWhileNobodyUsesTheExhibit) {
     no_display = true;
     make();
     frames(500);
@@ -240,7 +240,7 @@ TEST_F(Screen, ADisplayThatIsNotThereIsLookedForWhileNobodyUsesTheExhibit) {
     EXPECT_GT(display->presents, 0);
 }
 
-TEST_F(Screen, ADisplayThatFailsIsClosedAndOpenedAgain) {
+TEST_F(Screen, ReopensADisplayThatFails) {
     make();
     frames(5);
     display->broken = true;
@@ -269,7 +269,7 @@ TEST_F(Screen, SleepsWithTheExhibitAndDimsWithIt) {
     EXPECT_EQ(log.count("screen presents"), 1) << "the first picture after sleep, though nothing moved";
 }
 
-TEST_F(Screen, TheRoomIsClosedBeforeItsDisplay) {
+TEST_F(Screen, ClosesTheRoomBeforeItsDisplay) {
     struct Ended {
         std::vector<std::string>& lines;
         ~Ended() { lines.emplace_back("room closed"); }
@@ -300,7 +300,7 @@ public:
     [[nodiscard]] ShowState state() const override { return {}; }
 };
 
-TEST_F(Screen, TheLoopStepsItInEveryFrameAndTellsOfIt) {
+TEST_F(Screen, RunLoopStepsTheScreenInEveryFrameAndReportsIt) {
     make();
     BlankShow show;
     Inputs inputs;

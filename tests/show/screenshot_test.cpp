@@ -50,7 +50,7 @@ protected:
     Screenshot screenshot{32, 16};
 };
 
-TEST_F(ScreenshotTest, IsWhatWasPresentedLastWithoutTheWatchdogsCode) {
+TEST_F(ScreenshotTest, ShowsTheLastPresentedPictureWithoutTheWatchdogCode) {
     const MonotonicTime start = monotonic_now();
     draw(true, false, true);
     const Result<image::Image8> first = asked();
@@ -91,7 +91,7 @@ private:
     std::atomic<bool> may_go_ = false;
 };
 
-TEST_F(ScreenshotTest, ACopyThatComesTooLateIsNoAnswerToTheNextQuestion) {
+TEST_F(ScreenshotTest, ALateCopyDoesNotAnswerTheNextRequest) {
     draw(true, false, false);
     HeldDisplay held(*display);
     std::future<bool> answered = std::async(std::launch::async, [&] {
@@ -109,7 +109,7 @@ TEST_F(ScreenshotTest, ACopyThatComesTooLateIsNoAnswerToTheNextQuestion) {
     EXPECT_EQ(later->at(5, 5), glm::u8vec4(0, 255, 0, 255)) << "the picture of the copy that came too late";
 }
 
-TEST_F(ScreenshotTest, NobodyWhoAsksGetsAnOldPictureOfAnExhibitThatHung) {
+TEST_F(ScreenshotTest, AWithdrawnRequestDoesNotYieldAnOldPicture) {
     draw(true, true, true);
     screenshot.serve(*display); // without a request
     const Result<const image::Image8*> none = screenshot.take(std::stop_token());

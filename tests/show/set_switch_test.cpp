@@ -178,7 +178,7 @@ protected:
     const std::array<settings::Command, 1> previous{settings::Command::PreviousArtifact};
 };
 
-TEST_F(SetSwitching, PacksOfAKeyThatDoesNotCountAnyMoreAreInTheStatus) {
+TEST_F(SetSwitching, StatusListsPacksOfExpiredOrUnknownKeys) {
     const pack::SecretKey museum = pack::SecretKey::make();
     const pack::SecretKey other = pack::SecretKey::make();
     const auto signed_by = [](const pack::SecretKey& key, const Bytes& pack) {
@@ -207,7 +207,7 @@ TEST_F(SetSwitching, PacksOfAKeyThatDoesNotCountAnyMoreAreInTheStatus) {
     ASSERT_TRUE(await([&] { return sets->status() && sets->status()->of_ended_keys == "rings-2"; }));
 }
 
-TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
+TEST_F(SetSwitching, ANewSetReplacesTheOldOnePixelForPixel) {
     const image::Image8 expected = picture_of({4});
     const library::InstalledSet one = put(1, {0, 1});
     install(one);
@@ -233,7 +233,7 @@ TEST_F(SetSwitching, ANewSetIsShownPixelForPixelAndTheOldOneIsGone) {
     EXPECT_EQ(sets->status()->packs[0].title, "Rings 4");
 }
 
-TEST_F(SetSwitching, ANewSetsPicturesLieOnTheTableAsAfterAStart) {
+TEST_F(SetSwitching, ANewSetsTablePicturesAreDrawnAsAfterAStart) {
     settings.exhibit.table_pictures = true;
     const image::Image8 expected = picture_of({3, 4, 5});
     const library::InstalledSet one = put(1, {0});
@@ -247,7 +247,7 @@ TEST_F(SetSwitching, ANewSetsPicturesLieOnTheTableAsAfterAStart) {
     EXPECT_TRUE(await([&] { return picture().texels == expected.texels; }));
 }
 
-TEST_F(SetSwitching, AVisitorKeepsTheArtifactThatTheNewSetHasToo) {
+TEST_F(SetSwitching, KeepsTheChosenArtifactIfTheNewSetContainsIt) {
     settings.exhibit.table_pictures = false; // otherwise names would differ
     install(put(1, {0, 1, 2}));
     start();
@@ -263,7 +263,7 @@ TEST_F(SetSwitching, AVisitorKeepsTheArtifactThatTheNewSetHasToo) {
     EXPECT_EQ(picture().texels, before.texels);
 }
 
-TEST_F(SetSwitching, IsGoodAfterHalfAMinuteOfTheExhibitsTime) {
+TEST_F(SetSwitching, ASetIsGoodAfterHalfAMinuteOfTheExhibitsTime) {
     const library::InstalledSet one = put(1, {0});
     install(put(2, {1}), one);
     start();
@@ -277,7 +277,7 @@ TEST_F(SetSwitching, IsGoodAfterHalfAMinuteOfTheExhibitsTime) {
     EXPECT_EQ(switches, 0U);
 }
 
-TEST_F(SetSwitching, ASetWithABrokenPackIsNeverShown) {
+TEST_F(SetSwitching, NeverShowsASetWithATruncatedPack) {
     const library::InstalledSet one = put(1, {0});
     install(one);
     start();
@@ -296,7 +296,7 @@ TEST_F(SetSwitching, ASetWithABrokenPackIsNeverShown) {
     EXPECT_EQ(show->set().number, 3U);
 }
 
-TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
+TEST_F(SetSwitching, RestoresTheLastGoodSetWhenAPackFailsLater) {
     const library::InstalledSet one = put(1, {0});
     install(one);
     start();
@@ -313,7 +313,7 @@ TEST_F(SetSwitching, APackThatTurnsOutBadLaterLeadsBackToTheLastGoodSet) {
     EXPECT_NE(verdict().reason.find("damaged"), std::string::npos) << verdict().reason;
 }
 
-TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
+TEST_F(SetSwitching, TheFourthStartWithoutAVerdictShowsTheLastGoodSet) {
     install(put(2, {3}), put(1, {0}));
     const fs::path left = folder / "shown/verdict.json.part4194305"; // of a process that does not exist
     fs::create_directory(left.parent_path());
@@ -335,7 +335,7 @@ TEST_F(SetSwitching, StartsAreCountedAndTheFourthShowsTheLastGoodSet) {
     EXPECT_EQ(switches, 0U);
 }
 
-TEST_F(SetSwitching, AStartWithABrokenFirstSetShowsTheSettingsPacksOrWhatIsLeftOfIt) {
+TEST_F(SetSwitching, ABrokenFirstSetFallsBackToTheSettingsPacksElseItsOwn) {
     const library::InstalledSet broken = put(1, {3, 4});
     const fs::path own = folder / put(0, {0}).packs[0].file;
     fs::remove(folder / broken.packs[0].file);
@@ -352,7 +352,7 @@ TEST_F(SetSwitching, AStartWithABrokenFirstSetShowsTheSettingsPacksOrWhatIsLeftO
     EXPECT_EQ(verdict().state, library::TrialState::Bad);
 }
 
-TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
+TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodSet) {
     const library::InstalledSet broken = put(2, {3, 4});
     fs::remove(folder / broken.packs[0].file);
     install(broken, put(1, {0}));
@@ -361,7 +361,7 @@ TEST_F(SetSwitching, AStartWithABrokenSetShowsTheLastGoodOneAtOnce) {
     EXPECT_EQ(verdict().state, library::TrialState::Bad);
 }
 
-TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
+TEST_F(SetSwitching, RetriesAVerdictThatCouldNotBeWritten) {
     install(put(2, {3}), put(1, {0}));
     std::ofstream(folder / "shown") << "a file in the folder's place";
     start();
@@ -376,7 +376,7 @@ TEST_F(SetSwitching, AVerdictThatCouldNotBeWrittenIsWrittenLater) {
     ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
 }
 
-TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
+TEST_F(SetSwitching, AFailedStartOfTheShowCondemnsNoSet) {
     install(put(2, {3}), put(1, {0}));
     show::InstalledShow none = show::show_installed_set(
         settings, options, show::Trust::Newest,
@@ -389,7 +389,7 @@ TEST_F(SetSwitching, AStartAtWhichNothingCanBeShownCondemnsNoSet) {
     EXPECT_EQ(show->set().number, 2U);
 }
 
-TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
+TEST_F(SetSwitching, ASetRefusedByTheDriverIsBadAndNotOfferedAgain) {
     const library::InstalledSet one = put(1, {0});
     install(one);
     start();
@@ -409,7 +409,7 @@ TEST_F(SetSwitching, AfterARefusalByTheDriverWhatIsShownIsNotOfferedAgain) {
     EXPECT_FALSE(comes_true([&] { return library.take() != nullptr; }, milliseconds(300)));
 }
 
-TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
+TEST_F(SetSwitching, ATruncatedSetFileChangesNothing) {
     install(put(1, {0}));
     start();
     visit();
@@ -422,7 +422,7 @@ TEST_F(SetSwitching, ASetFileThatIsHalfThereChangesNothing) {
     ASSERT_TRUE(await([&] { return sets->status()->trouble.empty(); }));
 }
 
-TEST_F(SetSwitching, FiftySwitchesLeaveNothingBehind) {
+TEST_F(SetSwitching, FiftySwitchesLeakNoMemory) {
     std::array<library::InstalledSet, 2> both{put(1, {0, 1}), put(2, {2, 3})};
     install(both[0]);
     start();
@@ -445,7 +445,7 @@ TEST_F(SetSwitching, FiftySwitchesLeaveNothingBehind) {
     }
 }
 
-TEST_F(SetSwitching, TheSetsOwnLineTakesThePlaceOfTheInvitation) {
+TEST_F(SetSwitching, TheSetsOwnLineReplacesTheInvitation) {
     library::InstalledSet set = put(1, {0});
     set.attract = {{"de", "Bitte anfassen"}, {"en", "Please touch"}};
     install(set);

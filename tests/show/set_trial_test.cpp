@@ -28,7 +28,7 @@ void show(SetTrial& trial, MonotonicTime from, Nanoseconds length, std::uint64_t
     }
 }
 
-TEST(SetTrial, IsGoodWhenItWasShownForHalfAMinuteInOnePiece) {
+TEST(SetTrial, IsGoodAfterHalfAMinuteWithoutAFault) {
     SetTrial trial(on_trial(), std::nullopt);
     EXPECT_EQ(trial.verdict(), (library::SetVerdict{8, library::TrialState::Trying, 1, ""}));
     EXPECT_TRUE(trial.on_trial());
@@ -42,7 +42,7 @@ TEST(SetTrial, IsGoodWhenItWasShownForHalfAMinuteInOnePiece) {
     EXPECT_EQ(trial.verdict().state, library::TrialState::Good);
 }
 
-TEST(SetTrial, ASilenceOrTimeThatGoesBackBeginsTheHalfMinuteAnew) {
+TEST(SetTrial, AGapOrAClockJumpRestartsTheHalfMinute) {
     SetTrial silent(on_trial(), std::nullopt);
     show(silent, start, seconds(20));
     show(silent, start + milliseconds(22'100), seconds(29));
@@ -68,7 +68,7 @@ TEST(SetTrial, TheTimeOfAnotherSetDoesNotCount) {
     EXPECT_EQ(trial.verdict().state, library::TrialState::Trying);
 }
 
-TEST(SetTrial, AFaultLeadsBackToTheLastGoodOne) {
+TEST(SetTrial, AFaultRestoresTheLastGoodSet) {
     SetTrial trial(on_trial(), std::nullopt);
     show(trial, start, seconds(29));
     trial.shown(start + milliseconds(29'500), 8, "vase.fspack: it is damaged");
@@ -80,7 +80,7 @@ TEST(SetTrial, AFaultLeadsBackToTheLastGoodOne) {
     EXPECT_EQ(trial.verdict().state, library::TrialState::Bad);
 }
 
-TEST(SetTrial, IsNotBegunWithWhereItsStartCannotBeCounted) {
+TEST(SetTrial, KeepsTheOldSetWhileTheStartCannotBeCounted) {
     SetTrial trial(on_trial(), std::nullopt);
     trial.note_kept(false);
     EXPECT_EQ(trial.target().number, 7U);
@@ -94,7 +94,7 @@ TEST(SetTrial, IsNotBegunWithWhereItsStartCannotBeCounted) {
     EXPECT_EQ(good.target().number, 8U);
 }
 
-TEST(SetTrial, WithoutAnotherSetABadOneStays) {
+TEST(SetTrial, ABadSetStaysIfThereIsNoOther) {
     SetTrial trial({set_of(8), std::nullopt}, std::nullopt);
     EXPECT_FALSE(trial.on_trial());
     trial.refuse(8, "it is damaged");
@@ -102,7 +102,7 @@ TEST(SetTrial, WithoutAnotherSetABadOneStays) {
     EXPECT_EQ(trial.target().number, 8U);
 }
 
-TEST(SetTrial, StartsWithoutAVerdictAreCountedAndTheFourthGoesBack) {
+TEST(SetTrial, TheFourthStartWithoutAVerdictRestoresTheLastGoodSet) {
     std::optional<library::SetVerdict> kept;
     for (int begun = 1; begun <= library::max_starts; ++begun) {
         SetTrial trial(on_trial(), kept);
@@ -126,7 +126,7 @@ TEST(SetTrial, AGoodSetsStartsAreNotCounted) {
     }
 }
 
-TEST(SetTrial, AnotherSetIsOnTrialAndTheSameOneKeepsItsVerdict) {
+TEST(SetTrial, ANewSetIsOnTrialAndTheSameSetKeepsItsVerdict) {
     SetTrial trial({set_of(7), std::nullopt}, library::SetVerdict{7, library::TrialState::Good, 1, ""});
     trial.take(on_trial());
     EXPECT_EQ(trial.verdict(),
@@ -137,7 +137,7 @@ TEST(SetTrial, AnotherSetIsOnTrialAndTheSameOneKeepsItsVerdict) {
     EXPECT_EQ(trial.verdict().state, library::TrialState::Good);
 }
 
-TEST(SetTrial, WithoutTrustTheOneBeforeIsShownAndNothingIsKeptOfIt) {
+TEST(SetTrial, WithoutTrustShowsTheSetBeforeAndKeepsTheVerdict) {
     const library::SetVerdict good{8, library::TrialState::Good, 1, ""};
     SetTrial trial(on_trial(), good, Trust::Before);
     EXPECT_EQ(trial.target().number, 7U);
@@ -160,13 +160,13 @@ TEST(SetTrial, WithoutTrustTheOneBeforeIsShownAndNothingIsKeptOfIt) {
     EXPECT_EQ(alone.told().state, library::TrialState::Trying);
 }
 
-TEST(SetTrial, AVerdictOnAnotherSetSaysNothing) {
+TEST(SetTrial, IgnoresAVerdictOnAnotherSet) {
     const SetTrial trial(on_trial(), library::SetVerdict{9, library::TrialState::Bad, 3, "damaged"});
     EXPECT_EQ(trial.target().number, 8U);
     EXPECT_EQ(trial.verdict(), (library::SetVerdict{8, library::TrialState::Trying, 1, ""}));
 }
 
-TEST(SetTrial, BeforeTheFirstSetAreThePacksOfTheSettings) {
+TEST(SetTrial, FallsBackFromTheFirstSetToThePacksOfTheSettings) {
     SetTrial trial({set_of(1), library::InstalledSet()}, std::nullopt);
     EXPECT_TRUE(trial.on_trial());
     trial.refuse(1, "a pack cannot be shown");

@@ -176,7 +176,7 @@ TEST_F(SiteLight, FollowsTheTorchInALiveWindowWhileThePartStandsInTheProp) {
 }
 
 /// The torch is pointed past the prop.
-TEST_F(SiteLight, OfATorchThatDoesNotMeetThePropIsNotKept) {
+TEST_F(SiteLight, IgnoresATorchThatMissesTheProp) {
     start(unlimited);
     stay(region);
     scene::PlacedTorch torch = torch_at({-0.12, -0.2, 0.3});
@@ -191,7 +191,7 @@ TEST_F(SiteLight, OfATorchThatDoesNotMeetThePropIsNotKept) {
     EXPECT_EQ(picture().texels, beside.texels);
 }
 
-TEST_F(SiteLight, AllocatesNothingInAFrame) {
+TEST_F(SiteLight, DrawingAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }
@@ -210,7 +210,7 @@ TEST_F(SiteLight, AllocatesNothingInAFrame) {
 }
 
 /// A region whose page comes while its window lies there changes to it pixel by pixel.
-TEST_F(SiteWindows, ARegionFadesFromLevelToLevelInAWindow) {
+TEST_F(SiteWindows, FadeARegionToItsFinerLevel) {
     start(unlimited);
     const std::size_t region = 14;
     const world::SiteView part = view_at(region);

@@ -154,7 +154,7 @@ protected:
 
 constexpr std::array<std::size_t, 5> journey{7, 28, 0, 35, 14};
 
-TEST_F(SitePages, ComeForThePlaceAndLeaveForTheNextWithinTheBudget) {
+TEST_F(SitePages, LoadForEachPlaceWithinTheMemoryBudget) {
     start(no_limit, true);
     draw(std::nullopt, std::nullopt);
     EXPECT_TRUE(pages_there().empty()); // the miniature needs none
@@ -188,7 +188,7 @@ TEST_F(SitePages, ComeForThePlaceAndLeaveForTheNextWithinTheBudget) {
 
 /// Bytes in the store, counted by hand: the site's two levels share a texture, and a proxy's texels lie no closer on the prop than
 /// the site's.
-TEST_F(SitePages, BringOnlyProxiesWithTheArtifact) {
+TEST_F(SitePages, OnlyProxiesAreLoadedWithTheArtifact) {
     constexpr std::uint64_t whole_texels = 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4;
     constexpr std::uint64_t stand_in_texels = 8 * 8 + 4 * 4; // 64 / 6 texels along a side, or fewer
     const std::uint64_t before = renderer_.store().bytes();
@@ -212,7 +212,7 @@ TEST_F(SitePages, BringOnlyProxiesWithTheArtifact) {
 }
 
 /// In the miniature the proxy is all that is needed; a little larger, its level comes with the whole texture.
-TEST_F(SitePages, ComeForTheTextureAloneWhereTheSurfaceIsGoodEnough) {
+TEST_F(SitePages, TextureAloneIsLoadedWhereTheProxysSurfaceIsGoodEnough) {
     start(no_limit, true);
     scene::FrameCost cost; // without times the best level is drawn
     cost.mesh.ms_per_triangle = 1e-6;
@@ -230,7 +230,7 @@ TEST_F(SitePages, ComeForTheTextureAloneWhereTheSurfaceIsGoodEnough) {
     EXPECT_TRUE(pages_there().empty());
 }
 
-TEST_F(SitePages, ARegionWhoseMemoryIsTooSmallStaysCoarse) {
+TEST_F(SitePages, RegionsStayCoarseIfTheMemoryIsTooSmall) {
     start(1, true);
     travel_to(journey[0], std::nullopt);
     EXPECT_TRUE(pages_there().empty());
@@ -239,7 +239,7 @@ TEST_F(SitePages, ARegionWhoseMemoryIsTooSmallStaysCoarse) {
 }
 
 /// Until the reader has brought a page, its region is drawn by the coarser level; then the finer one fades in.
-TEST_F(SitePages, FadeInWhereTheCoarserLevelWas) {
+TEST_F(SitePages, FadeInOverTheCoarserLevel) {
     start(no_limit, false);
     const std::size_t region = journey[0];
     const world::SiteView view = world::view_of(middle_of(region), site_zoom);
@@ -263,7 +263,7 @@ TEST_F(SitePages, FadeInWhereTheCoarserLevelWas) {
     EXPECT_GE(between, 18);
 }
 
-TEST_F(SitePages, AllocateNothingInAFrameOnceTheyAreThere) {
+TEST_F(SitePages, DrawingLoadedPagesAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

@@ -76,7 +76,7 @@ TEST_F(SiteWindows, ThePreviewShowsTheMarkedRegionAsItWillStandInTheProp) {
 }
 
 /// Where the memory holds ten pages, a window leaves its own to the prop.
-TEST_F(SiteWindows, LeaveTheMemoryToTheProp) {
+TEST_F(SiteWindows, YieldTheirMemoryToTheProp) {
     start(unlimited);
     stay(14);
     const std::array<bool, site_regions> all = fine_regions();
@@ -97,7 +97,7 @@ TEST_F(SiteWindows, LeaveTheMemoryToTheProp) {
     EXPECT_TRUE(fine_regions()[0]);
 }
 
-TEST_F(SiteWindows, AllocateNothingInAFrame) {
+TEST_F(SiteWindows, DrawingAllocatesNothing) {
     if (!allocations_are_counted) {
         GTEST_SKIP() << "allocations are not counted under a sanitizer";
     }

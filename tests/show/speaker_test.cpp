@@ -85,7 +85,7 @@ protected:
 
 } // namespace
 
-TEST_F(Speaking, a_description_is_heard_whole_from_the_frame_that_tells_it) {
+TEST_F(Speaking, plays_the_whole_description_once) {
     const sound::Prompt truth = *sound::read_opus(fixture("speech.opus"));
     frame();
     tell();
@@ -106,7 +106,7 @@ TEST_F(Speaking, a_description_is_heard_whole_from_the_frame_that_tells_it) {
     EXPECT_FALSE(sounds()) << "it is said once";
 }
 
-TEST_F(Speaking, its_portions_follow_what_is_heard) {
+TEST_F(Speaking, portions_advance_with_the_playback) {
     tell();
     frames(3);
     std::size_t portion = 0;
@@ -118,7 +118,7 @@ TEST_F(Speaking, its_portions_follow_what_is_heard) {
     EXPECT_EQ(portion, 1U);
 }
 
-TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
+TEST_F(Speaking, stops_a_description_at_once_or_at_its_next_pause) {
     tell();
     frames(10);
     EXPECT_TRUE(sounds());
@@ -145,7 +145,7 @@ TEST_F(Speaking, what_is_told_no_more_stops_or_goes_on_to_its_pause) {
     EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Over);
 }
 
-TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
+TEST_F(Speaking, requested_advice_replaces_the_description) {
     presentation.prepares_word = exhibit::WordIndex{};
     tell();
     frames(20);
@@ -163,7 +163,7 @@ TEST_F(Speaking, advice_that_was_asked_for_takes_the_place_of_the_description) {
     EXPECT_NE(at, heard.end()) << "the advice is not there";
 }
 
-TEST_F(Speaking, who_manages_is_not_told_the_advice_to_its_end_but_the_description) {
+TEST_F(Speaking, silencing_the_advice_does_not_stop_the_description) {
     tell();
     frames(20);
     presentation.falls_silent = true;
@@ -172,7 +172,7 @@ TEST_F(Speaking, who_manages_is_not_told_the_advice_to_its_end_but_the_descripti
         << "silence for advice is none for the description";
 }
 
-TEST_F(Speaking, what_has_no_sound_is_silent) {
+TEST_F(Speaking, reports_silent_without_a_usable_recording) {
     presentation.tells = presentation.prepares = exhibit::DescriptionIndex{1, 0};
     frames(2);
     EXPECT_EQ(speaker.narration().state, exhibit::SpeechProgress::State::Silent);
@@ -206,7 +206,7 @@ TEST_F(Speaking, a_step_allocates_nothing) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_once) {
+TEST_F(Speaking, an_announcement_waits_for_silence_and_uses_its_gain) {
     const residency::SharedRecording loud = recording_of("tone.opus");
     residency::PromptRecording soft_one = *loud;
     soft_one.gain_db = -12.0;
@@ -234,7 +234,7 @@ TEST_F(Speaking, an_announcement_waits_until_nothing_else_is_heard_and_is_said_o
     EXPECT_NEAR(loudest_of(soft), of_loud * std::pow(10.0, -12.0 / 20.0), 0.01 * of_loud);
 }
 
-TEST_F(Speaking, a_word_that_waits_to_be_read_is_not_looked_for_in_another_set) {
+TEST_F(Speaking, forget_drops_a_word_that_waits_to_be_read) {
     Speaker waiting;
     waiting.begin(residency::PromptReader::Answer::WhenReady);
     presentation.prepares_word = presentation.says = exhibit::WordIndex{0, 1};
@@ -245,7 +245,7 @@ TEST_F(Speaking, a_word_that_waits_to_be_read_is_not_looked_for_in_another_set) 
     waiting.step(presentation, show); // the show fails the test for an unknown recording
 }
 
-TEST_F(Speaking, a_description_ends_with_its_set) {
+TEST_F(Speaking, forget_ends_the_description_of_the_old_set) {
     tell();
     frames(10);
     ASSERT_TRUE(sounds());
@@ -259,7 +259,7 @@ TEST_F(Speaking, a_description_ends_with_its_set) {
         heard.end());
 }
 
-TEST_F(Speaking, the_staff_are_left_in_peace) {
+TEST_F(Speaking, the_staff_picture_stops_the_description) {
     tell();
     frames(10);
     presentation.staff = true;
@@ -268,7 +268,7 @@ TEST_F(Speaking, the_staff_are_left_in_peace) {
 }
 
 /// Each requested tone begins at once, also while the previous one is heard; leaving the picture ends it.
-TEST_F(Speaking, the_staff_hear_the_tone_that_they_ask_for) {
+TEST_F(Speaking, plays_each_requested_staff_tone_until_the_staff_leave) {
     presentation.staff = true;
     frames(3);
     EXPECT_FALSE(sounds());
@@ -305,7 +305,7 @@ TEST_F(Speaking, the_staff_hear_the_tone_that_they_ask_for) {
 }
 
 /// ITU-R BS.1770: a sine of 1 kHz with an amplitude of -20 dBFS has -23 LUFS.
-TEST(TestTone, is_as_loud_as_speech_and_begins_and_ends_softly) {
+TEST(TestTone, has_the_loudness_of_speech_and_no_clicks) {
     const sound::SharedPrompt tone = test_tone();
     double squares = 0.0;
     int most = 0, largest_step = 0;

@@ -106,7 +106,7 @@ protected:
     std::optional<typography::Typesetter> typesetter;
 };
 
-TEST_F(StaffPicture, AnotherProgramReadsTheCode) {
+TEST_F(StaffPicture, AnotherDecoderReadsTheQrCode) {
     for (const std::string& text : {std::string("a"), std::string(example_card), std::string("\u00e9 \u4e2d"),
                                     std::string(status::max_card_bytes, 'x')}) {
         EXPECT_EQ(read(grown(qr_code(text), 4)), text);
@@ -117,7 +117,7 @@ TEST_F(StaffPicture, AnotherProgramReadsTheCode) {
 }
 
 /// A cable covers a part, and the telephone is turned.
-TEST_F(StaffPicture, TheCodeIsReadThoughAPartIsHiddenAndFromAnySide) {
+TEST_F(StaffPicture, QrCodeIsReadablePartlyHiddenAndTurned) {
     image::Image8 code = grown(qr_code(example_card), 5);
     const int below_finders = code.height / 2;
     for (int y = below_finders; y < below_finders + code.height / 16; ++y) {
@@ -131,7 +131,7 @@ TEST_F(StaffPicture, TheCodeIsReadThoughAPartIsHiddenAndFromAnySide) {
     }
 }
 
-TEST_F(StaffPicture, TheStatusPageHasACodeThatIsReadHoweverMuchThereIsToSay) {
+TEST_F(StaffPicture, StatusPagesQrCodeIsReadableWithAnyAmountOfText) {
     for (const auto& [width, height] :
          {std::pair(1280, 800), std::pair(1920, 1200), std::pair(1920, 1080), std::pair(1024, 768)}) {
         set_size(width, height);
@@ -192,7 +192,7 @@ TEST_F(StaffPicture, WordsStayWithinThePicture) {
     }
 }
 
-TEST_F(StaffPicture, ThePageOfTheCopySaysHowFarItIs) {
+TEST_F(StaffPicture, CopyPageShowsEachStageAndTheProgress) {
     set_size(1280, 800);
     exhibit::StaffView view;
     view.page = exhibit::StaffPage::Copy;
@@ -217,7 +217,7 @@ TEST_F(StaffPicture, ThePageOfTheCopySaysHowFarItIs) {
     EXPECT_TRUE(is_new()) << "a kiosk that writes to no stick";
 }
 
-TEST_F(StaffPicture, TheGreysAreTheCodesThatTheyName) {
+TEST_F(StaffPicture, GreysHaveTheirNominalCodes) {
     set_size(1920, 1200);
     exhibit::StaffView view;
     view.page = exhibit::StaffPage::Light;
@@ -239,7 +239,7 @@ library::InstalledPack pack_of(const char* id, const char* sha256) {
     return pack;
 }
 
-TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
+TEST(StatusCard, IsPlainTextAndTruncatedToItsLimit) {
     status::StatusReport status;
     status.uptime_s = 36000.0;
     auto set = std::make_shared<status::SetStatus>();
@@ -271,7 +271,7 @@ TEST(StatusCard, IsShortPlainAndCutFromItsEnd) {
     EXPECT_TRUE(card.ends_with("\n...\n"));
 }
 
-TEST(CalibrationLine, SaysWhichHowOldAndHowGood) {
+TEST(CalibrationLine, NamesFileAgeAndErrors) {
     settings::CalibrationSettings settings;
     EXPECT_EQ(calibration_line(settings, 0), "none; projector and tracker stand as the settings say");
     settings.used.emplace();
@@ -290,7 +290,7 @@ TEST(CalibrationLine, SaysWhichHowOldAndHowGood) {
 }
 
 /// The buttons can measure the table, and it has not been measured.
-TEST(StaffStays, UntilTheTableIsMeasured) {
+TEST(StaffStays, OnlyWhileAMeasurableTableIsUnmeasured) {
     settings::Settings settings;
     settings.tracker.kind = settings::TrackerKind::Usb;
     EXPECT_TRUE(exhibit_place(settings).staff_stays);

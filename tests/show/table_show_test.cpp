@@ -173,7 +173,7 @@ protected:
     MonotonicTime now{std::chrono::seconds(100)};
 };
 
-TEST_F(OnTheTable, PicturesLieInTheirPlacesInTheirColours) {
+TEST_F(OnTheTable, DrawsPicturesInTheirPlacesAndColours) {
     for (const std::size_t artifacts : {std::size_t{3}, std::size_t{12}}) {
         make(artifacts);
         for (const glm::dvec3& eye :
@@ -187,7 +187,7 @@ TEST_F(OnTheTable, PicturesLieInTheirPlacesInTheirColours) {
     }
 }
 
-TEST_F(OnTheTable, NothingOfThePicturesIsOnThePropAtHome) {
+TEST_F(OnTheTable, DrawsNoPictureOntoThePropAtHome) {
     make(12);
     wait(milliseconds(1500));
     const image::Image8 with = picture();
@@ -210,7 +210,7 @@ TEST_F(OnTheTable, NothingOfThePicturesIsOnThePropAtHome) {
     EXPECT_GT(compared, 20000);
 }
 
-TEST_F(OnTheTable, TheRingFillsWithWhatTheExhibitSays) {
+TEST_F(OnTheTable, RingShowsTheExhibitsProgress) {
     make(3, "[exhibit]\ncaptions = false\n[prop]\nbase_m = 0.16\ntop_m = 0.08\nheight_m = 0.12\n");
     wait(milliseconds(800));
     ASSERT_NE(shown.table, nullptr);
@@ -278,7 +278,7 @@ TEST_F(OnTheTable, TitlesFollowTheLanguage) {
     EXPECT_GT(columns_of_title(), english + 8);
 }
 
-TEST_F(OnTheTable, APackWithoutAPictureHasASquare) {
+TEST_F(OnTheTable, DrawsASquareForAPackWithoutAPicture) {
     make(3, "", 2);
     wait(milliseconds(1500));
     const image::Image8 image = picture();
@@ -292,7 +292,7 @@ TEST_F(OnTheTable, APackWithoutAPictureHasASquare) {
     EXPECT_EQ(show->use().planned_gpu_bytes, show->use().gpu_bytes);
 }
 
-TEST_F(OnTheTable, NoFrameAllocatesAndAPictureThatFadesIsDrawnAlone) {
+TEST_F(OnTheTable, DrawingAllocatesNothingAndRedrawsOnlyTheRing) {
     waits = true; // the next and the previous artifact are loaded ahead; receiving another one allocates
     make(12);
     wait(milliseconds(1500));

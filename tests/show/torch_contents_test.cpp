@@ -86,7 +86,7 @@ protected:
     ThrownContents thrown_;
 };
 
-TEST_F(TorchContentsTest, AnEffectNeedsNothingAndAPictureIsReadWhenItIsWanted) {
+TEST_F(TorchContentsTest, ReadsAPictureOnlyWhenRequestedAndNothingForAnEffect) {
     TorchContents torches = contents(true);
     const std::array ring{WantedContent{0, 0.0}};
     torches.step(store_, 0, ring);
@@ -101,7 +101,7 @@ TEST_F(TorchContentsTest, AnEffectNeedsNothingAndAPictureIsReadWhenItIsWanted) {
     torches.release(store_);
 }
 
-TEST_F(TorchContentsTest, APictureThatIsTooLargeForAFrameIsTakenAtHalfItsSize) {
+TEST_F(TorchContentsTest, HalvesAPictureThatIsTooLargeToUploadInAFrame) {
     TorchContents torches = contents(true);
     torches.step(store_, 0, std::array{WantedContent{3, 0.0}});
     ASSERT_TRUE(torches.shown(3).ready);
@@ -110,7 +110,7 @@ TEST_F(TorchContentsTest, APictureThatIsTooLargeForAFrameIsTakenAtHalfItsSize) {
     torches.release(store_);
 }
 
-TEST_F(TorchContentsTest, AFilmShowsTheFrameOfItsTimeAndBeginsAgain) {
+TEST_F(TorchContentsTest, FilmShowsTheFrameOfItsTimeAndLoops) {
     TorchContents torches = contents(true);
     std::uint32_t version = 0;
     torches.step(store_, 0, std::array{WantedContent{2, 0.0}});
@@ -128,7 +128,7 @@ TEST_F(TorchContentsTest, AFilmShowsTheFrameOfItsTimeAndBeginsAgain) {
     torches.release(store_);
 }
 
-TEST_F(TorchContentsTest, TheThreadBringsAllAndAFilmRunsOn) {
+TEST_F(TorchContentsTest, ThreadLoadsAllContentsAndAdvancesTheFilm) {
     TorchContents torches = contents(false);
     for (const std::size_t content : {1U, 2U, 3U}) {
         await(torches, content);
@@ -145,7 +145,7 @@ TEST_F(TorchContentsTest, TheThreadBringsAllAndAFilmRunsOn) {
     torches.release(store_);
 }
 
-TEST_F(TorchContentsTest, AnotherArtifactReleasesWhatIsThere) {
+TEST_F(TorchContentsTest, ChangingTheArtifactReleasesItsContents) {
     TorchContents torches = contents(true);
     torches.step(store_, 0, std::array{WantedContent{1, 0.0}, WantedContent{2, 0.0}});
     const scene::TextureId picture = torches.shown(1).picture, film = torches.shown(2).picture;
@@ -160,7 +160,7 @@ TEST_F(TorchContentsTest, AnotherArtifactReleasesWhatIsThere) {
     EXPECT_EQ(store_.bytes(), 0U);
 }
 
-TEST_F(TorchContentsTest, WhatExceedsTheMemoryOrCannotBeReadIsLeftOutAndTheOthersAreThere) {
+TEST_F(TorchContentsTest, LeavesOutOnlyContentsThatAreTooLargeOrUnreadable) {
     TorchContents small = contents(true, 10'000);
     small.step(store_, 0, std::array{WantedContent{1, 0.0}, WantedContent{3, 0.0}});
     EXPECT_TRUE(small.shown(1).ready);

@@ -23,7 +23,7 @@ exhibit::PresentedLight light(std::size_t colour, bool left = false) {
     return of;
 }
 
-TEST(TorchReport, TellsWhyNoneShines) {
+TEST(TorchReport, ReportsWhyNoTorchIsLit) {
     const auto none = torches(TorchPresence::Lost, TorchPresence::Lost);
     EXPECT_EQ(torch_report({}, none).state, "lost");
     EXPECT_EQ(torch_report({}, none).by, "");
@@ -35,7 +35,7 @@ TEST(TorchReport, TellsWhyNoneShines) {
     EXPECT_EQ(torch_report({}, in_hand).by, "tracker");
 }
 
-TEST(TorchReport, TellsWhatTheOneInTheHandLights) {
+TEST(TorchReport, ReportsTheContentAndAimOfTheHeldTorch) {
     const auto both = torches(TorchPresence::InHand, TorchPresence::InHand);
     ShownTorch shown{.held = 1, .aim = exhibit::TorchAim::Lights, .lit = true, .content = "x-ray"};
     const status::TorchReport lit = torch_report(shown, both);

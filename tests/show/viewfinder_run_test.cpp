@@ -147,7 +147,7 @@ protected:
     Screenshot* screenshot = nullptr;
 };
 
-TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
+TEST_F(ViewfinderRun, StaffPictureShowsTheCameraOnlyWhileBothButtonsAreHeld) {
     settings.camera.kind = settings::CameraKind::None;
     image::Image8 plain;
     {
@@ -190,7 +190,7 @@ TEST_F(ViewfinderRun, TheStaffsPictureShowsTheCamerasWhileBothButtonsAreHeld) {
 }
 
 /// A visitor who holds two buttons does not see the camera's picture: the staff picture appears with the chord.
-TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
+TEST_F(ViewfinderRun, HoldsNoFrameBeforeTheStaffPictureAppears) {
     settings.panel.kind = settings::PanelKind::Gpio;
     settings.panel.lines = {"4", "5", "6"};
     class Nothing final : public PresentationShow {
@@ -228,7 +228,7 @@ TEST_F(ViewfinderRun, NoFrameIsHeldBeforeTheStaffsPictureIsThere) {
     EXPECT_GT(with, 100);
 }
 
-TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
+TEST_F(ViewfinderRun, ACoveredCameraShowsASentenceInsteadOfItsPicture) {
     with_viewfinder();
     auto stated = std::make_unique<StatedCamera>();
     StatedCamera& camera = *stated;
@@ -266,7 +266,7 @@ TEST_F(ViewfinderRun, ACameraThatIsLostOrCoveredHasALineInPlaceOfAPicture) {
     EXPECT_NE(lit_below(running), lit_below(covered)) << "another sentence";
 }
 
-TEST_F(ViewfinderRun, NoScreenshotHasIt) {
+TEST_F(ViewfinderRun, ScreenshotsDoNotContainTheCameraPicture) {
     with_viewfinder();
     Screenshot asked(width, height, std::chrono::hours(1)); // measured by frame time, not by the wall clock
     screenshot = &asked;
@@ -337,7 +337,7 @@ std::size_t occurrences(const std::vector<std::uint8_t>& needle) {
 }
 
 /// Searches the whole process, including the driver that draws on the processor.
-TEST_F(ViewfinderRun, NothingOfAFrameIsLeftInTheProcess) {
+TEST_F(ViewfinderRun, LeavesNoCameraFrameInTheProcessMemory) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "the sanitizers keep freed memory as it is";
     }

@@ -40,7 +40,7 @@ TEST(Viewfinder, ShowsTheMeanOfEachSquareOfTheTurnedFrame) {
     }
 }
 
-TEST(Viewfinder, IsTurnedClockwiseByQuarters) {
+TEST(Viewfinder, TurnsTheFrameClockwiseByQuarters) {
     const camera::CameraFrame frame = frame_of(90, 50, 3);
     Grey turned(90, 50);
     turned.texels = frame.luma;
@@ -56,7 +56,7 @@ TEST(Viewfinder, IsTurnedClockwiseByQuarters) {
 }
 
 /// A camera and a projector above the table, each turned about the vertical by quarters; a lamp lies at the far side.
-TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
+TEST(Viewfinder, IsUprightForAnyoneAtTheFrontOfTheTable) {
     constexpr int side = 60;
     for (int camera = 0; camera < 4; ++camera) {
         for (int projector = 0; projector < 4; ++projector) {
@@ -94,7 +94,7 @@ TEST(Viewfinder, StandsUprightForWhoStandsAtTheFront) {
     }
 }
 
-TEST(Viewfinder, HoldsNothingOfAFrameButWhileItIsWanted) {
+TEST(Viewfinder, HoldsAFrameOnlyWhileRequested) {
     const camera::CameraFrame frame = frame_of(40, 30, 5);
     Viewfinder viewfinder(area_px, 0);
     image::Image8 shown(area_px.x, area_px.y);
@@ -118,7 +118,7 @@ TEST(Viewfinder, HoldsNothingOfAFrameButWhileItIsWanted) {
                             [](const glm::u8vec4& code) { return code == glm::u8vec4(0, 0, 0, 255); }));
 }
 
-TEST(Viewfinder, ACameraThatIsJustWritingLeavesNothingEither) {
+TEST(Viewfinder, LeavesNoFrameWhenStoppedDuringAWrite) {
     const camera::CameraFrame frame = frame_of(320, 240, 5);
     Viewfinder viewfinder({320, 240}, 1);
     image::Image8 shown(320, 240);

@@ -21,7 +21,7 @@ protected:
     }
 };
 
-TEST_F(KeyFolder, GivesKeysByTheirFilesNames) {
+TEST_F(KeyFolder, NamesKeysAfterTheirFiles) {
     EXPECT_TRUE(read_key_folder(folder)->empty());
     put("b.pub", vectors::open_public);
     put("a museum.pub", vectors::encrypted_public);
@@ -36,7 +36,7 @@ TEST_F(KeyFolder, GivesKeysByTheirFilesNames) {
     EXPECT_EQ((*keys)[1], (TrustedKey{"b", *parse_public_key(vectors::open_public), std::nullopt}));
 }
 
-TEST_F(KeyFolder, RefusesWhatItCannotRead) {
+TEST_F(KeyFolder, RejectsUnreadableKeysAndFolders) {
     put("bad.pub", "hello\n");
     expect_refused("bad.pub: this is not a minisign public key");
     fs::remove(folder / "bad.pub");
@@ -46,7 +46,7 @@ TEST_F(KeyFolder, RefusesWhatItCannotRead) {
     expect_refused(folder.string() + ": the folder of public keys cannot be read");
 }
 
-TEST_F(KeyFolder, HasNoMoreKeysThanTheSettings) {
+TEST_F(KeyFolder, LimitsTheNumberOfKeys) {
     for (std::size_t k = 0; k < max_trusted_keys; ++k) {
         put(fmt::format("{:02}.pub", k), vectors::open_public);
     }

@@ -26,14 +26,14 @@ std::array<std::uint8_t, 158> record_of(std::string_view text) {
     return minisign::from_base64<158>(text.substr(text.find('\n') + 1, line_bytes)).value();
 }
 
-TEST(SecretKeys, OfMinisignWithoutAPassword) {
+TEST(SecretKeys, ReadsAMinisignKeyWithoutAPassword) {
     EXPECT_FALSE(needs_password(vectors::open_key).value());
     const Result<SecretKey> key = parse_secret_key(vectors::open_key, std::nullopt);
     ASSERT_TRUE(key) << key.error().message;
     EXPECT_TRUE(signs_for(*key, parse_public_key(vectors::open_public).value()));
 }
 
-TEST(SecretKeys, OfMinisignWithAPassword) {
+TEST(SecretKeys, ReadsAMinisignKeyWithAPassword) {
     EXPECT_TRUE(needs_password(vectors::encrypted_key).value());
     EXPECT_FALSE(parse_secret_key(vectors::encrypted_key, std::nullopt));
     const Result<SecretKey> key = parse_secret_key(vectors::encrypted_key, "pw");
@@ -41,7 +41,7 @@ TEST(SecretKeys, OfMinisignWithAPassword) {
     EXPECT_TRUE(signs_for(*key, parse_public_key(vectors::encrypted_public).value()));
 }
 
-TEST(SecretKeys, AreReadAsTheyWereWritten) {
+TEST(SecretKeys, RoundTrip) {
     for (const std::optional<std::string_view> password :
          {std::optional<std::string_view>(), std::optional<std::string_view>("a \xC3\xA4 password")}) {
         const SecretKey key = SecretKey::make();
@@ -64,7 +64,7 @@ TEST(SecretKeys, AreAllDifferent) {
         << "the salt is another";
 }
 
-TEST(SecretKeys, WithAnotherPasswordAreRefused) {
+TEST(SecretKeys, RejectsAWrongPassword) {
     const Result<std::string> text = write_secret_key(SecretKey::make(), "right", cheap);
     for (const std::string_view wrong : {"wrong", "", "Right", "right "}) {
         const Result<SecretKey> read = parse_secret_key(*text, wrong);
@@ -74,7 +74,7 @@ TEST(SecretKeys, WithAnotherPasswordAreRefused) {
 }
 
 /// A signature with a partly wrong key would reveal the secret.
-TEST(SecretKeys, OfWhichAnyByteIsDamagedAreRefused) {
+TEST(SecretKeys, RejectsAnyDamagedByte) {
     constexpr std::size_t first_of_the_key = 54;
     for (const bool with_checksum : {true, false}) {
         const std::string text = with_checksum ? *write_secret_key(SecretKey::make(), std::nullopt)
@@ -94,7 +94,7 @@ TEST(SecretKeys, OfWhichAnyByteIsDamagedAreRefused) {
     }
 }
 
-TEST(SecretKeys, ThatAskForTooMuchAreRefusedBeforeItIsTaken) {
+TEST(SecretKeys, RejectsExcessivePasswordCost) {
     const std::string text = *write_secret_key(SecretKey::make(), "pw", cheap);
     for (const std::size_t high_byte_of : {38U, 46U}) { // operations, memory
         auto record = record_of(text);
@@ -106,7 +106,7 @@ TEST(SecretKeys, ThatAskForTooMuchAreRefusedBeforeItIsTaken) {
     }
 }
 
-TEST(SecretKeys, ThatAreNoneAreRefused) {
+TEST(SecretKeys, RejectsTextThatIsNoKey) {
     const std::string good(vectors::open_key);
     for (const std::string& bad :
          {std::string(), std::string("hello"), std::string(vectors::open_public), good + "more\n",

@@ -98,7 +98,7 @@ protected:
     }
 };
 
-TEST_F(SignProgram, KeygenWithoutATerminalWritesAnOpenKeyForItsOwnerAlone) {
+TEST_F(SignProgram, KeygenWithoutATerminalWritesAnUnencryptedPrivateFile) {
     const Outcome made = pack("keygen -o house");
     expect_done(made);
     EXPECT_NE(made.out.find("without a password"), std::string::npos) << made.out;
@@ -116,7 +116,7 @@ TEST_F(SignProgram, KeygenWithoutATerminalWritesAnOpenKeyForItsOwnerAlone) {
     expect_failed(pack("keygen -o nowhere/house"), "nowhere/house.key: cannot be written");
 }
 
-TEST_F(SignProgram, WhatWeSignMinisignVerifies) {
+TEST_F(SignProgram, MinisignVerifiesOurSignatures) {
     make_keys();
     const Outcome done = pack("sign vase.fspack --key house.key --serial 17");
     expect_done(done);
@@ -129,7 +129,7 @@ TEST_F(SignProgram, WhatWeSignMinisignVerifies) {
     expect_done(run("echo >> m && ! minisign -V -m m -x m.minisig -p house.pub"));
 }
 
-TEST_F(SignProgram, WhatMinisignSignsIsVerifiedHere) {
+TEST_F(SignProgram, VerifiesMinisignSignatures) {
     expect_done(run("minisign -G -W -p curator.pub -s curator.key"));
     const Bytes plain = samples::bytes_of(samples::pack());
     ASSERT_TRUE(write_file(folder / "m", testing::manifest_of(plain)));
@@ -144,7 +144,7 @@ TEST_F(SignProgram, WhatMinisignSignsIsVerifiedHere) {
     EXPECT_EQ(verified("theirs.fspack --key curator.pub")[0]["serial"], 5);
 }
 
-TEST_F(SignProgram, MinisignSignsWithOurKeysAndWeWithIts) {
+TEST_F(SignProgram, SharesKeysWithMinisign) {
     make_keys();
     expect_done(run("minisign -S -s house.key -m house.pub && minisign -V -m house.pub -p house.pub"));
     expect_done(run("minisign -R -s house.key -p again.pub && cmp house.pub again.pub"));
@@ -154,7 +154,7 @@ TEST_F(SignProgram, MinisignSignsWithOurKeysAndWeWithIts) {
     expect_done(pack("verify vase.fspack --key house.pub --key curator.pub"));
 }
 
-TEST_F(SignProgram, APasswordIsAskedUnseenAndTwice) {
+TEST_F(SignProgram, PromptsTwiceForAHiddenPassword) {
     const auto [twice_different, shown] = on_terminal("keygen -o secret", "one\nanother\n");
     EXPECT_EQ(twice_different, 1) << shown;
     EXPECT_NE(shown.find("[password.different]"), std::string::npos) << shown;
@@ -174,7 +174,7 @@ TEST_F(SignProgram, APasswordIsAskedUnseenAndTwice) {
     expect_done(minisign_verifies("vase.fspack", "-p secret.pub"));
 }
 
-TEST_F(SignProgram, VerifySaysWhoSigned) {
+TEST_F(SignProgram, VerifyNamesTheSigner) {
     make_keys();
     EXPECT_EQ(verified("vase.fspack")[0]["signed"], false);
     expect_failed(pack("verify vase.fspack --key house.pub"), "vase.fspack: it is not signed");
@@ -199,7 +199,7 @@ TEST_F(SignProgram, VerifySaysWhoSigned) {
     expect_failed(pack("verify vase.fspack --key vase.fspack"), "vase.fspack: ");
 }
 
-TEST_F(SignProgram, ASerialDoesNotGoBackUnlessItIsSaid) {
+TEST_F(SignProgram, LowersASerialOnlyIfRequested) {
     make_keys();
     expect_done(pack("sign vase.fspack --key house.key"));
     const auto now = static_cast<std::uint64_t>(std::time(nullptr));
@@ -219,7 +219,7 @@ TEST_F(SignProgram, ASerialDoesNotGoBackUnlessItIsSaid) {
     }
 }
 
-TEST_F(SignProgram, SeveralAreSignedAndOneThatIsNotSoundStaysAsItWas) {
+TEST_F(SignProgram, SignsSeveralPacksAndLeavesADamagedOneUnchanged) {
     make_keys();
     samples::Entries entries = samples::take_apart(samples::bytes_of(samples::pack()));
     entries.parts[0].second[0] ^= std::byte{1};
@@ -238,7 +238,7 @@ TEST_F(SignProgram, SeveralAreSignedAndOneThatIsNotSoundStaysAsItWas) {
     expect_failed(pack("sign house.pub --key house.key"), "house.pub: this is not a pack");
 }
 
-TEST_F(SignProgram, ASetFilesSignatureLiesBesideIt) {
+TEST_F(SignProgram, WritesTheSignatureBesideASetFile) {
     make_keys();
     put("exhibit.toml", "order = [\"vase\"]\n");
     expect_done(pack("sign exhibit.toml --key house.key --serial 8"));
@@ -251,7 +251,7 @@ TEST_F(SignProgram, ASetFilesSignatureLiesBesideIt) {
     expect_failed(pack("sign exhibit.toml --key house.key"), "exhibit.toml: its signature has the serial");
 }
 
-TEST_F(SignProgram, ASetFileThatTheKioskWouldRefuseIsNotSigned) {
+TEST_F(SignProgram, RejectsAnInvalidSetFile) {
     make_keys();
     put("exhibit.toml", "order = [\"vase\"]\nonyl = true\n");
     expect_failed(pack("sign exhibit.toml --key house.key"), "frustumscreen-pack: exhibit.toml:2: ");
@@ -264,7 +264,7 @@ TEST_F(SignProgram, ASetFileThatTheKioskWouldRefuseIsNotSigned) {
     EXPECT_FALSE(std::filesystem::exists(folder / "exhibit.toml.minisig"));
 }
 
-TEST_F(SignProgram, AMistypedCommandIsToldWithThoseThatThereAre) {
+TEST_F(SignProgram, ListsTheCommandsForAnUnknownOne) {
     const Outcome mistyped = pack("verfy vase.fspack");
     EXPECT_EQ(mistyped.status, 2);
     EXPECT_EQ(mistyped.error,

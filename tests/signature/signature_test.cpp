@@ -51,7 +51,7 @@ std::string with_line_of(std::string_view text, std::string_view other, std::siz
     return replaced(text, line_at(text), line_at(other));
 }
 
-TEST(Signature, OfMinisignIsRightInBothAlgorithms) {
+TEST(Signature, AcceptsBothMinisignAlgorithms) {
     const auto of_the_hash = check(vectors::signed_text, vectors::of_the_hash);
     ASSERT_TRUE(of_the_hash) << of_the_hash.error().error.message;
     EXPECT_EQ(of_the_hash->key, "Collections");
@@ -62,7 +62,7 @@ TEST(Signature, OfMinisignIsRightInBothAlgorithms) {
     EXPECT_EQ(of_the_bytes->trusted_comment, "timestamp:1795419910\tfile:a");
 }
 
-TEST(Signature, MayHaveTheLineEndsOfWindowsAndNoneAtTheEnd) {
+TEST(Signature, AcceptsWindowsLineEndsAndNoFinalNewline) {
     std::string windows;
     for (const char c : vectors::of_the_hash) {
         windows += c == '\n' ? "\r\n" : std::string(1, c);
@@ -71,12 +71,12 @@ TEST(Signature, MayHaveTheLineEndsOfWindowsAndNoneAtTheEnd) {
     EXPECT_TRUE(check(vectors::signed_text, vectors::of_the_hash.substr(0, vectors::of_the_hash.size() - 1)));
 }
 
-TEST(Signature, IsNotThere) {
+TEST(Signature, ReportsAMissingSignature) {
     expect_refused(check(vectors::signed_text, std::nullopt), SignatureFault::Unsigned,
                    "[signature.unsigned]");
 }
 
-TEST(Signature, OfOtherBytesOrWithAnotherCommentIsAltered) {
+TEST(Signature, RejectsAlteredBytesAndComments) {
     for (const std::string_view text : {"hello", "Hello\n", "hello\n\n", ""}) {
         expect_refused(check(text, vectors::of_the_hash), SignatureFault::Altered,
                        "altered after it was signed");
@@ -95,7 +95,7 @@ TEST(Signature, OfOtherBytesOrWithAnotherCommentIsAltered) {
                    SignatureFault::Altered, "[signature.comment_altered]");
 }
 
-TEST(Signature, ItsUntrustedCommentSaysNothing) {
+TEST(Signature, IgnoresTheUntrustedComment) {
     EXPECT_TRUE(
         check(vectors::signed_text,
               replaced(vectors::of_the_hash, "signature from minisign secret key", "anything at all")));
@@ -103,7 +103,7 @@ TEST(Signature, ItsUntrustedCommentSaysNothing) {
 
 /// The two letters of the algorithm are not signed. With the older algorithm, a signature of the hash's bytes
 /// would be valid too.
-TEST(Signature, OfAHashIsNotOneOfTheHashesBytes) {
+TEST(Signature, HashSignatureIsInvalidForTheHashItself) {
     const std::string forged = replaced(vectors::of_the_hash, "\nRUS", "\nRWS");
     std::array<unsigned char, 64> hash{};
     crypto_generichash(hash.data(), hash.size(),
@@ -113,7 +113,7 @@ TEST(Signature, OfAHashIsNotOneOfTheHashesBytes) {
                    SignatureFault::Altered, "altered");
 }
 
-TEST(Signature, ThatIsNoneIsMalformed) {
+TEST(Signature, RejectsMalformedText) {
     const std::string good(vectors::of_the_hash);
     const std::string long_comment =
         replaced(good, "timestamp:1795419910", "timestamp:1795419910 " + std::string(9000, 'a'));
@@ -130,7 +130,7 @@ TEST(Signature, ThatIsNoneIsMalformed) {
 }
 
 /// libsodium's base64 reader accepts some of these as letters.
-TEST(Signature, HasNoBytesThatAreNoLettersOfBase64) {
+TEST(Signature, RejectsBytesOutsideBase64) {
     constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const std::size_t at = vectors::of_the_hash.find("BEsuB"); // within the signature
     for (int byte = 0; byte < 256; ++byte) {
@@ -145,7 +145,7 @@ TEST(Signature, HasNoBytesThatAreNoLettersOfBase64) {
     }
 }
 
-TEST(Signature, OfAnotherKeyIsOfNobody) {
+TEST(Signature, RejectsAnUnknownKey) {
     const TrustedKey other = testing::trusted(SecretKey::make(), "Another");
     expect_refused(check(vectors::signed_text, vectors::of_the_hash, {}), SignatureFault::UnknownKey,
                    "[signature.unknown_key]");
@@ -160,7 +160,7 @@ TEST(Signature, OfAnotherKeyIsOfNobody) {
     EXPECT_TRUE(check(vectors::signed_text, vectors::of_the_hash, {same_id, minisigns_key()}));
 }
 
-TEST(Signature, OfAKeyThatHasEndedSaysWhatTheClockSays) {
+TEST(Signature, ReportsAnExpiredKeyWithTheDate) {
     TrustedKey key = minisigns_key();
     key.until = day(2026, 12, 31);
     const auto on = [&](std::optional<std::chrono::sys_days> today) {
@@ -178,7 +178,7 @@ TEST(Signature, OfAKeyThatHasEndedSaysWhatTheClockSays) {
                    "altered");
 }
 
-TEST(Signature, ItsSerialStandsOnceInTheTrustedComment) {
+TEST(Signature, ReadsTheSerialFromTheTrustedComment) {
     const SecretKey key = SecretKey::make();
     const auto serial_of = [&](std::string_view comment) -> std::optional<std::uint64_t> {
         const auto checked = check("x", key.sign(as_bytes("x"), comment), {testing::trusted(key)});
@@ -197,7 +197,7 @@ TEST(Signature, ItsSerialStandsOnceInTheTrustedComment) {
     }
 }
 
-TEST(Signature, ItsClaimNeedsNoKey) {
+TEST(Signature, ReadsTheClaimWithoutAKey) {
     const Result<SignatureClaim> claim = read_signature_claim(vectors::of_the_hash);
     ASSERT_TRUE(claim);
     EXPECT_EQ(claim->key_id, vectors::open_id);
@@ -205,7 +205,7 @@ TEST(Signature, ItsClaimNeedsNoKey) {
     EXPECT_FALSE(read_signature_claim("hello"));
 }
 
-TEST(PublicKeys, AreReadAsAFileAndAsALine) {
+TEST(PublicKeys, AreParsedFromAFileOrALine) {
     const PublicKey key = parse_public_key(vectors::open_public).value();
     EXPECT_EQ(text_of_key_id(key.id), vectors::open_id);
     const std::string line = public_key_line(key);

@@ -221,7 +221,7 @@ bool is_one_of(const std::vector<Original>& originals, const std::string& commen
     });
 }
 
-TEST(SignedMutants, AreRefusedOrUnpackToWhatWasSigned) {
+TEST(SignedMutants, AreRejectedOrUnpackToASignedOriginal) {
     const SecretKey key = SecretKey::make();
     const SecretKey stranger = SecretKey::make();
     Pack other = small_pack();

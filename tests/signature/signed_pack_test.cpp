@@ -70,7 +70,7 @@ TEST_F(SignedPacks, GiveSignerTitleAndParts) {
     EXPECT_EQ(claim_of(opened->reader).value()->serial, 42U);
 }
 
-TEST_F(SignedPacks, OfAFileAreTheSame) {
+TEST_F(SignedPacks, OpenFromAFile) {
     ASSERT_TRUE(write_file("signed.fspack", signed_pack(samples::pack(), key_, 7)));
     auto opened =
         open_signed_pack(*OpenFile::open("signed.fspack", std::uint64_t{1} << 31U), {keys_, std::nullopt});
@@ -81,7 +81,7 @@ TEST_F(SignedPacks, OfAFileAreTheSame) {
 }
 
 /// The manifest is parsed after the signature check: an invalid manifest is not even read.
-TEST_F(SignedPacks, HaveTheirSignatureCheckedBeforeTheirManifestIsParsed) {
+TEST_F(SignedPacks, CheckTheSignatureBeforeParsingTheManifest) {
     const std::string no_manifest = "{\"format\": [[[[";
     expect_refused(zip_of({{"manifest.json", no_manifest}}), Why::Signature, SignatureFault::Unsigned,
                    "[signature.unsigned]");
@@ -97,7 +97,7 @@ TEST_F(SignedPacks, HaveTheirSignatureCheckedBeforeTheirManifestIsParsed) {
                    SignatureFault::Altered, "altered after it was signed with the key House");
 }
 
-TEST_F(SignedPacks, WithoutASignatureAreAllowedOnlyWhereTheBenchSaysSo) {
+TEST_F(SignedPacks, AreRequiredUnlessUnsignedPacksAreAllowed) {
     const Bytes bytes = samples::bytes_of(samples::pack());
     expect_refused(bytes, Why::Signature, SignatureFault::Unsigned, "[signature.unsigned]");
     auto opened = open(bytes, UnsignedPacks::Allow);
@@ -110,7 +110,7 @@ TEST_F(SignedPacks, WithoutASignatureAreAllowedOnlyWhereTheBenchSaysSo) {
                    SignatureFault::UnknownKey, "[signature.unknown_key]", UnsignedPacks::Allow);
 }
 
-TEST_F(SignedPacks, ThatAreNoPacksAreToldApart) {
+TEST_F(SignedPacks, RejectFilesThatAreNoPacks) {
     expect_no_pack({}, "[zip.not_a_pack]");
     expect_no_pack(samples::some_bytes("a text, longer than a directory's end"), "[zip.not_a_pack]");
     Bytes cut = signed_pack(samples::pack(), key_, 1);
@@ -120,7 +120,7 @@ TEST_F(SignedPacks, ThatAreNoPacksAreToldApart) {
     expect_no_pack(zip_of({{"photo.jpg", "x"}, {"manifest.json", "{}"}}), "[pack.no_manifest]");
 }
 
-TEST_F(SignedPacks, WithMoreThanIsAllowedAreRefusedUnread) {
+TEST_F(SignedPacks, RejectOversizedSignaturesAndManifests) {
     const std::string large(pack::max_signature_bytes + 1, 'a');
     expect_no_pack(zip_of({{"manifest.json", "{}"}, {"signature", large}}),
                    "the signature has 65537 bytes, allowed are 65536");
@@ -129,7 +129,7 @@ TEST_F(SignedPacks, WithMoreThanIsAllowedAreRefusedUnread) {
     expect_no_pack(zip.finish().value(), "manifest.json has 16777217 bytes");
 }
 
-TEST_F(SignedPacks, ThatCannotBeReadAnyMoreAreNotCalledDamaged) {
+TEST_F(SignedPacks, ReportATruncatedFileAsUnreadable) {
     ASSERT_TRUE(write_file("pulled.fspack", signed_pack(samples::pack(), key_, 1)));
     Result<OpenFile> file = OpenFile::open("pulled.fspack", std::uint64_t{1} << 31U);
     ASSERT_EQ(::truncate("pulled.fspack", 100), 0);
@@ -151,7 +151,7 @@ std::map<std::string, std::pair<std::uint64_t, Bytes>> packed_entries(const Byte
     return entries;
 }
 
-TEST_F(SignedPacks, KeepAllOtherEntriesAsTheyArePacked) {
+TEST_F(SignedPacks, SigningKeepsAllOtherEntriesUnchanged) {
     const Bytes plain = samples::bytes_of(samples::full_pack());
     const Bytes once = with_signature(plain, key_.sign(manifest_of(plain), comment_of(1))).value();
     const Bytes twice = with_signature(once, key_.sign(manifest_of(plain), comment_of(2))).value();
@@ -168,7 +168,7 @@ TEST_F(SignedPacks, KeepAllOtherEntriesAsTheyArePacked) {
 }
 
 /// Another archive program may have placed the signature anywhere except first.
-TEST_F(SignedPacks, MayHaveTheirSignatureAnywhere) {
+TEST_F(SignedPacks, AcceptTheSignatureAtAnyPlace) {
     const Bytes plain = samples::bytes_of(samples::pack());
     const std::string signature = key_.sign(manifest_of(plain), comment_of(5));
     auto zip = ZipReader::open(plain);

@@ -23,7 +23,7 @@ Extent extent_of(const Site& site) {
     return extent;
 }
 
-TEST(Site, HasExactlyTheWantedTriangles) {
+TEST(Site, HasExactlyTheRequestedTriangles) {
     for (const SiteKind kind : {SiteKind::HillTown, SiteKind::Excavation}) {
         for (const std::size_t triangles : {std::size_t{60'000}, std::size_t{126'791}}) { // even and odd
             const Site site = make_site({.kind = kind, .triangles = triangles});
@@ -35,7 +35,7 @@ TEST(Site, HasExactlyTheWantedTriangles) {
     EXPECT_EQ(make_site({.triangles = 5}).indices.size(), 3 * min_site_triangles);
 }
 
-TEST(Site, StandsInTheMiddleOfItsGroundAtItsSize) {
+TEST(Site, IsCentredOnItsGroundAtItsSize) {
     for (const SiteKind kind : {SiteKind::HillTown, SiteKind::Excavation}) {
         const Extent extent = extent_of(make_site({.kind = kind, .triangles = 60'000, .size_m = 0.3}));
         EXPECT_NEAR(extent.high.x - extent.low.x, 0.3F, 1e-6F); // wider than high
@@ -46,14 +46,14 @@ TEST(Site, StandsInTheMiddleOfItsGroundAtItsSize) {
     }
 }
 
-TEST(Site, IsTheSameOfTheSameSeedAndAnotherOfAnother) {
+TEST(Site, DependsOnlyOnItsSeed) {
     const Site site = make_site({.triangles = 60'000, .seed = 5});
     EXPECT_EQ(site.positions, make_site({.triangles = 60'000, .seed = 5}).positions);
     EXPECT_NE(site.positions, make_site({.triangles = 60'000, .seed = 6}).positions);
 }
 
 /// The box of a site does not depend on its number of triangles: the same things are built.
-TEST(Site, HasTheSameThingsInAnyNumberOfTriangles) {
+TEST(Site, HasTheSameExtentForAnyNumberOfTriangles) {
     const Extent coarse = extent_of(make_site({.triangles = 60'000}));
     const Extent fine = extent_of(make_site({.triangles = 200'000}));
     EXPECT_LT(glm::distance(coarse.low, fine.low), 1e-3F);
@@ -62,7 +62,7 @@ TEST(Site, HasTheSameThingsInAnyNumberOfTriangles) {
 
 /// From above, the nearest surface of each place is met from its front: a heightmap of the triangles' highest points, each of
 /// which must not be of a triangle that looks down.
-TEST(Site, IsMetFromItsFrontsFromAbove) {
+TEST(Site, ShowsFrontFacesFromAbove) {
     for (const SiteKind kind : {SiteKind::HillTown, SiteKind::Excavation}) {
         const Site site = make_site({.kind = kind, .triangles = 120'000});
         constexpr int cells = 300;
@@ -111,7 +111,7 @@ TEST(Site, IsMetFromItsFrontsFromAbove) {
 }
 
 /// Each vertex has a place inside one row of the texture, far enough from the next that mip levels do not mix them.
-TEST(Site, KeepsItsColoursInTheMiddlesOfRows) {
+TEST(Site, PlacesTextureCoordinatesInTheMiddleOfRows) {
     const Site site = make_site({.triangles = 60'000});
     std::set<float> rows;
     for (const glm::vec2& place : site.texture_places) {

@@ -53,7 +53,7 @@ glm::dvec3 lit_point(const Pose& pose, const glm::dvec2& pixel) {
 
 const image::Image8 dark(1280, 800, black);
 
-TEST(VisitorScreen, APixelOfItLandsWhereTheLineThroughItAndTheEyeMeetsThePicture) {
+TEST(VisitorScreen, PixelsAppearWhereTheirRayToTheEyeMeetsThePicture) {
     std::size_t looked_at = 0;
     for (const Pose& pose : poses) {
         for (const glm::ivec2 dot : {glm::ivec2(40, 20), glm::ivec2(280, 24), glm::ivec2(30, 90)}) {
@@ -86,7 +86,7 @@ TEST(VisitorScreen, APixelOfItLandsWhereTheLineThroughItAndTheEyeMeetsThePicture
 }
 
 /// Between prop and screen there is neither a dark rim nor anything else.
-TEST(VisitorScreen, AtThePropsEdgeItIsEitherPropOrScreen) {
+TEST(VisitorScreen, HasNoOtherColourAtTheEdgeOfTheProp) {
     Pose pose = poses[0];
     pose.eye_m = {0.05, -0.8, 0.16}; // the prop's upper half is before the screen
     const VisitorScene scene =
@@ -123,7 +123,7 @@ TEST(VisitorScreen, AtThePropsEdgeItIsEitherPropOrScreen) {
     EXPECT_GT(on_screen, 20000U);
 }
 
-TEST(VisitorScreen, ShinesBySelfAloneAndToTheFrontAlone) {
+TEST(VisitorScreen, EmitsLightOnlyToTheFront) {
     const Pose& pose = poses[0];
     VisitorScene scene =
         scene_of(pose, image::Image8(screen_px.x, screen_px.y, glm::u8vec4(255, 255, 255, 255)));
@@ -155,7 +155,7 @@ TEST(VisitorScreen, ShinesBySelfAloneAndToTheFrontAlone) {
     EXPECT_NEAR(back->t, 1.6, 1e-12);
 }
 
-TEST(WholeCamera, HasPropAndScreenInItsPictureAndStandsUpright) {
+TEST(WholeCamera, ShowsPropAndScreenWithoutRoll) {
     for (const Pose& pose : poses) {
         const VisitorScene scene = scene_of(pose, image::Image8(screen_px.x, screen_px.y, black));
         for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(600, 900)}) {

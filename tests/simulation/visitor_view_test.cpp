@@ -114,7 +114,7 @@ int worst_channel(const glm::u8vec4& a, const glm::u8vec4& b) {
         {std::abs(int(a.r) - int(b.r)), std::abs(int(a.g) - int(b.g)), std::abs(int(a.b) - int(b.b))});
 }
 
-TEST(VisitorView, FromTheProjectorsPictureTheArtifactStandsInThePropAsAnOrdinaryRayCastShowsIt) {
+TEST(VisitorView, MatchesARayCastOfTheArtifactInTheProp) {
     const Egg egg;
     for (const Kiosk& kiosk : kiosks) {
         for (const auto& [place, yaw, eye] :
@@ -153,7 +153,7 @@ TEST(VisitorView, FromTheProjectorsPictureTheArtifactStandsInThePropAsAnOrdinary
     }
 }
 
-TEST(VisitorView, TheCameraLooksAtThePropsCentreWithTheTablesUp) {
+TEST(VisitorView, CameraLooksAtTheCentreOfThePropUpright) {
     const geometry::PropShape prop = geometry::make_frustum({});
     const geometry::RigidTransform pose{glm::angleAxis(0.4, glm::dvec3(0, 0, 1)), {0.1, 0.05, 0.0}};
     const glm::dvec3 eye(-0.2, -0.6, 0.45);
@@ -235,7 +235,7 @@ TEST(VisitorView, LightFallsWithTheCosineAndTheSquareOfTheDistance) {
 }
 
 /// Without a picture only the room's light is visible: table and prop are dark grey.
-TEST(VisitorView, ExposesADarkRoomsTableToDarkGreyAndWhiteOnASideToWhite) {
+TEST(VisitorView, ExposesADarkTableToGreyAndAWhiteSideToWhite) {
     VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.6, -0.1, 0.5});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 200, 200);
     const auto code_at = [&](const image::Image8& picture, const glm::dvec3& point) {
@@ -253,7 +253,7 @@ TEST(VisitorView, ExposesADarkRoomsTableToDarkGreyAndWhiteOnASideToWhite) {
     EXPECT_GT(code_at(image::Image8(1280, 800, glm::u8vec4(255)), side), 230);
 }
 
-TEST(VisitorView, ShowsABlockWhereItIsTheNearest) {
+TEST(VisitorView, ShowsABlockOnlyBeforeEverythingElse) {
     VisitorScene scene = scene_of(kiosks[1], {0.0, 0.0}, 0.0, {0.0, -0.6, 0.4});
     const VisitorCamera camera = visitor_camera(scene.prop, scene.table_from_prop, scene.eye_m, 120, 120);
     const image::Image8 white(1280, 800, glm::u8vec4(255));

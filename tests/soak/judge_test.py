@@ -36,17 +36,17 @@ def soak(**changes):
 
 
 class Slopes(unittest.TestCase):
-    def test_line_is_found_exactly(self):
+    def test_finds_the_slope_of_a_line(self):
         slope, low, high = judge.theil_sen([[(float(x), 3.0 + 2.5 * x) for x in range(20)]])
         self.assertAlmostEqual(slope, 2.5)
         self.assertAlmostEqual(low, 2.5)
         self.assertAlmostEqual(high, 2.5)
 
-    def test_one_of_five_may_be_wild(self):
+    def test_tolerates_one_outlier_in_five(self):
         run = [(float(x), 2.5 * x if x % 5 else 1e6) for x in range(40)]
         self.assertAlmostEqual(judge.theil_sen([run])[0], 2.5, delta=0.01)
 
-    def test_interval_holds_the_truth(self):
+    def test_interval_contains_the_true_slope(self):
         """The interval contains the true slope in 95 % of soaks; the test demands 86 of 100 (by chance, 1 in 10 000 tests finds fewer)."""
         held = 0
         for seed in range(100):
@@ -61,14 +61,14 @@ class Slopes(unittest.TestCase):
         self.assertLess(abs(memory["mb_per_exhibit_h"]), 0.1)
         self.assertEqual(memory["verdict"], "holds")
 
-    def test_a_leak_is_missed(self):
+    def test_reports_a_leak(self):
         """20 MiB in an hour that passed are 2.6 MB in an hour of the exhibit's time."""
         report = soak(samples=samples(20.0))
         self.assertAlmostEqual(report["memory"]["exhibit"]["mb_per_exhibit_h"], 20.0 * 1.048576 / PACE, delta=0.3)
         self.assertEqual(report["memory"]["exhibit"]["verdict"], "missed")
         self.assertEqual(len(report["missed"]), 1)
 
-    def test_too_short_is_said(self):
+    def test_reports_soaks_that_are_too_short(self):
         """Nineteen minutes after the first minute are too short for a slope, whatever the samples are."""
         self.assertEqual(soak(samples=samples(60.0, length_s=1200.0))["memory"]["exhibit"]["verdict"], "too short to say")
         self.assertEqual(soak(samples=samples(0.0, length_s=120.0))["memory"]["exhibit"]["verdict"], "too short to say")
@@ -81,14 +81,14 @@ class Counts(unittest.TestCase):
         self.assertEqual((report["availability"], report["longest_dark_s"], report["missed"]), (1.0, 0.0, []))
         self.assertAlmostEqual(report["exhibit_hours"], 8.0, delta=0.01)
 
-    def test_dark(self):
+    def test_reports_dark_time(self):
         looks = [(0.25 * k, not 400 <= k < 800) for k in range(4000)]  # 100 s of 1000
         report = soak(looks=looks)
         self.assertAlmostEqual(report["availability"], 0.9, delta=0.002)
         self.assertAlmostEqual(report["longest_dark_s"], 100.0, delta=0.6)
         self.assertIn("dark for", report["missed"][0])
 
-    def test_steps(self):
+    def test_finds_false_alarms(self):
         """A step that the fault explains, a step of another cause, and a step long after the fault."""
         steps = [{"awake_s": 230.0, "cause": "device_silent", "step": "reset_device"},
                  {"awake_s": 230.0, "cause": "memory_short", "step": "restart"},
@@ -98,16 +98,16 @@ class Counts(unittest.TestCase):
         self.assertEqual(report["false_alarms"], 2)
         self.assertEqual(len(report["missed"]), 1)
 
-    def test_ends(self):
+    def test_finds_unexpected_ends(self):
         report = soak(ends=[(205.0, "signal killed KILL"), (1500.0, "exit-code exited 1")], faults=[fault("killed", 103.0, 110.0)])
         self.assertEqual([end["expected"] for end in report["restarts"]], [True, False])
         self.assertIn("1 ends", report["missed"][0])
 
-    def test_not_back(self):
+    def test_reports_a_fault_without_recovery(self):
         report = soak(faults=[fault("unplugged", 10.0, 70.0, came_back=False)])
         self.assertIn("unplugged", report["missed"][0])
 
-    def test_counts_go_on_over_a_restart(self):
+    def test_adds_counts_across_a_restart(self):
         """30 a second, except between the last sample of one process and the first sample of the next."""
         self.assertAlmostEqual(soak()["events"]["frames"], 30 * 3590, delta=30 * 10)
 
@@ -130,17 +130,17 @@ class Plan(unittest.TestCase):
         self.assertEqual(sum(event.kind == "press" for event in events), 480)
         self.assertEqual(events, sorted(events, key=lambda event: event.at_s))
 
-    def test_once(self):
+    def test_plans_a_kind_once(self):
         times = [event.at_s for event in day.plan(8.0, self.KINDS, 3, {"kind 4"}) if event.kind == "kind 4"]
         self.assertEqual(len(times), 1)
         self.assertLess(times[0], 3600.0)
 
-    def test_room_between(self):
+    def test_leaves_time_between_repetitions(self):
         """3.2 hours are rounded up to four: the fault comes in the first and in the fifth hour."""
         times = [event.at_s for event in day.plan(8.0, self.KINDS, 3, (), {"kind 4": 3.2}) if event.kind == "kind 4"]
         self.assertEqual([int(at // 3600.0) for at in times], [0, 4])
 
-    def test_each_kind_once_in_a_short_one(self):
+    def test_plans_each_kind_once_in_a_short_soak(self):
         self.assertEqual(sorted(event.kind for event in day.plan(0.4, self.KINDS, 1) if event.kind != "press"), sorted(self.KINDS))
 
     def test_seeds(self):

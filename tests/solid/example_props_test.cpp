@@ -40,7 +40,7 @@ Solid expect_prop(const std::string& name, const Expected& expected) {
     return solid;
 }
 
-TEST(ExampleProps, Cube) {
+TEST(ExampleProps, CubeMatchesItsDimensions) {
     const Solid solid = expect_prop("prop_cube", {6, 8, 120.0 * 120.0 * 120.0, 120.0});
     for (const SolidFace& face : solid.faces) {
         glm::dvec3 along(0.0);
@@ -49,18 +49,18 @@ TEST(ExampleProps, Cube) {
     }
 }
 
-TEST(ExampleProps, Hexagon) {
+TEST(ExampleProps, HexagonMatchesItsDimensions) {
     const double area = std::sqrt(3.0) / 2.0 * 120.0 * 120.0; // of a hexagon 120 from flat to flat
     expect_prop("prop_hexagon", {8, 12, area * 130.0, 120.0});
 }
 
-TEST(ExampleProps, Tetrahedron) {
+TEST(ExampleProps, TetrahedronMatchesItsDimensions) {
     const double edge = 150.0;
     expect_prop("prop_tetrahedron",
                 {4, 4, edge * edge * edge / (6.0 * std::sqrt(2.0)), edge / std::sqrt(2.0)});
 }
 
-TEST(ExampleProps, Gem) {
+TEST(ExampleProps, GemMatchesItsDimensions) {
     const auto hexagon = [](double radius) { return 1.5 * std::sqrt(3.0) * radius * radius; };
     const auto frustum = [&](double below, double above, double height) {
         return height / 3.0 * (hexagon(below) + hexagon(above) + std::sqrt(hexagon(below) * hexagon(above)));

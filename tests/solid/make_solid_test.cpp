@@ -114,7 +114,7 @@ void expect_solid(const Body& written, const std::set<FaceKey>& faces, double vo
     }
 }
 
-TEST(MakeSolid, ABodyIsTheSameHoweverItIsWritten) {
+TEST(MakeSolid, ResultDoesNotDependOnTheMesh) {
     std::mt19937 random(1);
     int compared = 0;
     for (int trial = 0; trial < 60; ++trial) {
@@ -142,7 +142,7 @@ TEST(MakeSolid, ABodyIsTheSameHoweverItIsWritten) {
     EXPECT_EQ(compared, 60);
 }
 
-TEST(MakeSolid, WhatIsWrittenReadsTheSame) {
+TEST(MakeSolid, RoundTrip) {
     std::mt19937 random(2);
     for (int trial = 0; trial < 30; ++trial) {
         const Body body = some_body(random, 4 + static_cast<std::size_t>(trial) % 13, 60.0);
@@ -162,7 +162,7 @@ TEST(MakeSolid, WhatIsWrittenReadsTheSame) {
     }
 }
 
-TEST(MakeSolid, WhatWasChangedIsTold) {
+TEST(MakeSolid, NotesJoinedPolygonsAndInvertedFaces) {
     EXPECT_TRUE(read_well(obj_of(cube(120))).notes.empty());
     std::mt19937 random(3);
     Body body = in_triangles(cube(120), random);
@@ -184,7 +184,7 @@ std::vector<std::string> names_of(const std::string& text) {
     return names;
 }
 
-TEST(MakeSolid, FacesAreNamedByTheirGroups) {
+TEST(MakeSolid, NamesFacesAfterTheirGroups) {
     const std::string tetrahedron = "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\n";
     EXPECT_EQ(names_of(tetrahedron + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"),
               (std::vector<std::string>{"F1", "F2", "F3", "F4"}));
@@ -195,14 +195,14 @@ TEST(MakeSolid, FacesAreNamedByTheirGroups) {
               (std::vector<std::string>{"F5", "F2", "F1", "F6"}));
 }
 
-TEST(MakeSolid, VerticesThatNoFaceUsesDoNotCount) {
+TEST(MakeSolid, IgnoresUnusedVertices) {
     Body body = cube(120);
     body.vertices.emplace_back(9e5, 0, 0);
     EXPECT_EQ(read_well(obj_of(body)).solid.corners.size(), 8U);
 }
 
 /// Hundreds of coplanar polygons with corners rounded to 0.01 mm, as some programs write them.
-TEST(MakeSolid, ARoundedGridIsOneFace) {
+TEST(MakeSolid, JoinsARoundedGridIntoOneFace) {
     const glm::dmat3 turn(glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)))));
     Body body;
     constexpr std::size_t n = 12;

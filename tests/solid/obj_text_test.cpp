@@ -37,7 +37,7 @@ TEST(ObjText, VerticesAreConvertedToMetres) {
     EXPECT_EQ(parsed(text, LengthUnit::Metre).mesh.vertices.front(), glm::dvec3(10, -20.5, 30));
 }
 
-TEST(ObjText, CornersHaveFourFormsAndMayCountBackwards) {
+TEST(ObjText, ParsesFourCornerFormsAndNegativeIndices) {
     for (const char* face :
          {"f 1 2 4", "f 1/7 2/8 4/9", "f 1//7 2//8 4//9", "f 1/1/1 2/2/2 4/3/3", "f -4 -3 -1",
           "f -4//-1 2 4/5/6", "  f\t+1 2   4   ", "f 1 2 4 # three corners"}) {
@@ -48,7 +48,7 @@ TEST(ObjText, CornersHaveFourFormsAndMayCountBackwards) {
     }
 }
 
-TEST(ObjText, LinesMayEndInThreeWaysAndGoOn) {
+TEST(ObjText, AcceptsThreeLineEndsAndContinuationLines) {
     const std::string joined = "v 0 0 0\nv 1 \\\n 0 0\nv 0 1 0\nf 1 2 \\\n3\nf \\ \n 1 2 \\\n 3\nf 1 3 2";
     for (const char* end : {"\n", "\r\n", "\r"}) {
         std::string text;
@@ -65,14 +65,14 @@ TEST(ObjText, LinesMayEndInThreeWaysAndGoOn) {
     }
 }
 
-TEST(ObjText, ACommentHidesNoOtherLine) {
+TEST(ObjText, CommentsDoNotContinueOntoTheNextLine) {
     const ObjText obj = parsed("\xEF\xBB\xBF# from C:\\props\\\n" + four + "f 1 2 3\n#f 1 2 4\n");
     EXPECT_EQ(obj.mesh.vertices.size(), 4U);
     EXPECT_EQ(obj.mesh.polygons.size(), 1U);
     EXPECT_TRUE(obj.notes.empty());
 }
 
-TEST(ObjText, FacesHaveTheNamesOfTheirGroups) {
+TEST(ObjText, NamesFacesAfterTheirGroups) {
     const ObjText obj =
         parsed(four + "f 1 2 3\ng left hand\nf 1 2 4\no body\nf 1 3 4\ng\nf 2 3 4\ng default\n"
                       "f 1 2 3\ng a\\b\x01#c\nf 1 2 3\n");
@@ -83,7 +83,7 @@ TEST(ObjText, FacesHaveTheNamesOfTheirGroups) {
     EXPECT_EQ(names, (std::vector<std::string>{"", "left", "body", "", "", "a_b?#c"}));
 }
 
-TEST(ObjText, EachOtherKeywordIsToldOnce) {
+TEST(ObjText, NotesEachUnknownKeywordOnce) {
     const ObjText obj =
         parsed("mtllib a.mtl\n" + four + "vn 0 0 1\nvn 1 0 0\nusemtl skin\nf 1 2 3\nvn 0 1 0\n");
     ASSERT_EQ(obj.notes.size(), 3U);
@@ -100,7 +100,7 @@ TEST(ObjText, EachOtherKeywordIsToldOnce) {
         << "weights and colours";
 }
 
-TEST(ObjText, WhatIsWrongIsSaidWithItsLine) {
+TEST(ObjText, ReportsErrorsWithTheirLine) {
     expect_refused("v 0 0\n", "prop_file.vertex", {"line 1", "this one has 2"});
     expect_refused("v 0 0 0 1 2 3 4 5\n", "prop_file.vertex", {"line 1", "this one has 8"});
     expect_refused("\nv 0 1,5 0\n", "prop_file.number", {"line 2", "\"1,5\""});
@@ -126,7 +126,7 @@ TEST(ObjText, WhatIsWrongIsSaidWithItsLine) {
     }
 }
 
-TEST(ObjText, LimitsAreSaid) {
+TEST(ObjText, ReportsExceededLimits) {
     expect_refused(std::string(max_obj_bytes + 1, '\n'), "prop_file.bytes", {"1048577", "1048576"});
     expect_refused(std::string(max_obj_bytes, '\n'), "prop_file.no_face", {});
     std::string vertices;

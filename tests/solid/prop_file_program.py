@@ -114,7 +114,7 @@ class PropFile(unittest.TestCase):
         self.assertIn(name, done.stderr)
         return done.stderr
 
-    def test_random_bodies(self):
+    def test_random_bodies_match_scipy(self):
         random = np.random.default_rng(1)
         for trial in range(60):
             hull, normals = random_hull(random, trial)
@@ -141,7 +141,7 @@ class PropFile(unittest.TestCase):
             self.assertEqual(self.bake("--prop-file", "prop.obj", "-o", "again.obj").returncode, 0)
             self.assertEqual((self.folder / "again.obj").read_bytes(), (self.folder / "prop.obj").read_bytes())
 
-    def test_units_and_axes(self):
+    def test_converts_units_and_axes(self):
         points = np.array([[x, y, z] for x in (0, 0.1) for y in (0, 0.2) for z in (0, 0.3)])
         (self.folder / "box.stl").write_bytes(binary_stl(outward_triangles(ConvexHull(points))))
         done = self.bake("--prop-file", "box.stl", "-o", "box.obj", "--unit", "m", "--up", "y", "--json")
@@ -149,7 +149,7 @@ class PropFile(unittest.TestCase):
         self.assertTrue(np.allclose(report["size_mm"], [100, 300, 200], atol=1e-3), report["size_mm"])
         self.assertIn("metres", self.refusal("box.stl", (self.folder / "box.stl").read_bytes()))
 
-    def test_what_is_no_prop_is_refused(self):
+    def test_rejects_invalid_props(self):
         random = np.random.default_rng(2)
         ball = random.normal(size=(500, 3))
         ball *= 60 / np.linalg.norm(ball, axis=1)[:, None]
@@ -175,7 +175,7 @@ class PropFile(unittest.TestCase):
         assert len(top) == 2
         return np.array(rest + [[corners[k], corners[(k + 1) % 4], [50, 50, 70]] for k in range(4)], float)
 
-    def test_a_file_of_another_kind_is_kept(self):
+    def test_does_not_overwrite_other_files(self):
         (self.folder / "mine.obj").write_text("# mine\n")
         (self.folder / "box.obj").write_text((pathlib.Path(__file__).parents[2] / "config/prop_cube.obj").read_text())
         done = self.bake("--prop-file", "box.obj", "-o", "mine.obj")
@@ -186,7 +186,7 @@ class PropFile(unittest.TestCase):
         self.assertEqual(self.bake("--prop-file", "mine.obj", "-o", "mine.obj").returncode, 1)
         self.assertIn('g +X\n', (self.folder / "mine.obj").read_text())
 
-    def test_wrong_use(self):
+    def test_reports_usage_errors(self):
         for arguments in (["--prop-file"], ["--prop-file", "a.stl"], ["--prop-file", "a.stl", "-o", "b.obj", "--unit", "inch"]):
             done = self.bake(*arguments)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)

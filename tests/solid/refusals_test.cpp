@@ -29,7 +29,7 @@ Body both(Body a, const Body& b) {
     return a;
 }
 
-TEST(RefusedProp, IsOpen) {
+TEST(RefusedProp, OpenSurface) {
     Body body = cube(120);
     body.faces.erase(body.faces.begin() + 1);
     expect_refused(body, "prop_file.open", {"4 edges", "120 mm long", "face of line"});
@@ -39,20 +39,20 @@ TEST(RefusedProp, IsOpen) {
     expect_refused(body, "prop_file.open", {"4 edges", "120 mm long", "(60, 60, "});
 }
 
-TEST(RefusedProp, HasFacesTurnedToDifferentSides) {
+TEST(RefusedProp, InconsistentlyOrientedFaces) {
     Body body = cube(120);
     std::reverse(body.faces[2].begin(), body.faces[2].end());
     expect_refused(body, "prop_file.turned",
                    {"line 9", "line 11", "counter-clockwise"}); // the first edge in order
 }
 
-TEST(RefusedProp, HasAnEdgeOfManyFaces) {
+TEST(RefusedProp, EdgeSharedByThreeFaces) {
     Body body = cube(120);
     body.faces.push_back(body.faces[0]);
     expect_refused(body, "prop_file.edge_of_many", {"3 faces", "line 9", "line 15"});
 }
 
-TEST(RefusedProp, HasTwoBodies) {
+TEST(RefusedProp, SeveralBodies) {
     expect_refused(both(cube(120), box(glm::dvec3(100, 0, 0), glm::dvec3(130, 30, 30))), "prop_file.parts",
                    {"2 bodies"});
     Body inner = cube(60); // a hollow
@@ -65,7 +65,7 @@ TEST(RefusedProp, HasTwoBodies) {
                    "prop_file.parts", {"2 bodies"});
 }
 
-TEST(RefusedProp, IsConcave) {
+TEST(RefusedProp, ConcaveBody) {
     // An L: 100 x 100, of which a corner of 60 x 60 is cut off, 80 high.
     Body body;
     for (const double z : {0.0, 80.0}) {
@@ -101,7 +101,7 @@ TEST(RefusedProp, IsConcave) {
     }
 }
 
-TEST(RefusedProp, CutsItself) {
+TEST(RefusedProp, SelfIntersectingBody) {
     // A prism on a five-pointed star, whose outline goes round twice.
     Body star = prism(5, 100, 100);
     for (std::vector<std::size_t>& face : star.faces) {
@@ -118,7 +118,7 @@ TEST(RefusedProp, CutsItself) {
     EXPECT_FALSE(read(twisted).has_value());
 }
 
-TEST(RefusedProp, HasAFaceThatIsNotFlat) {
+TEST(RefusedProp, FaceThatIsNotFlat) {
     Body body = cube(120);
     body.vertices[6].z += 1.0; // a corner of the top: the plane goes up by a quarter of it, on the whole
     expect_refused(body, "prop_file.not_flat", {"face F2 (line 10)", "0.25 mm", "0.20 mm"});
@@ -126,7 +126,7 @@ TEST(RefusedProp, HasAFaceThatIsNotFlat) {
     EXPECT_TRUE(read(body).has_value()) << "0.125 mm";
 }
 
-TEST(RefusedProp, HasTooFewOrTooManyFaces) {
+TEST(RefusedProp, TooManyFaces) {
     const Result<PropFile> sixteen = read(prism(14, 100, 100));
     ASSERT_TRUE(sixteen.has_value());
     EXPECT_EQ(sixteen->solid.faces.size(), 16U);
@@ -134,14 +134,14 @@ TEST(RefusedProp, HasTooFewOrTooManyFaces) {
     expect_refused(prism(48, 100, 100), "prop_file.faces", {"50 flat faces"});
 }
 
-TEST(RefusedProp, HasNoInside) {
+TEST(RefusedProp, BodyWithoutVolume) {
     Body body;
     body.vertices = {{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}};
     body.faces = {{0, 1, 2, 3}, {3, 2, 1, 0}};
     expect_refused(body, "prop_file.no_volume", {"0 cm3"});
 }
 
-TEST(RefusedProp, HasAnotherSize) {
+TEST(RefusedProp, TooSmallOrTooLargeBody) {
     expect_refused(cube(0.12), "prop_file.size", {"0.12 mm long", "10.0 mm to 2000 mm", "metres"});
     expect_refused(cube(9.9), "prop_file.size", {"9.90 mm long"});
     expect_refused(cube(1e6), "prop_file.size", {"1000000 mm long", "true size"}); // 1 km
@@ -154,7 +154,7 @@ TEST(RefusedProp, HasAnotherSize) {
     EXPECT_FALSE(read(all_at_one_place).has_value());
 }
 
-TEST(RefusedProp, IsAScan) {
+TEST(RefusedProp, TooManyPolygons) {
     PolygonMesh mesh;
     mesh.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
     mesh.polygons.assign(1'000'000, Polygon{.corners = {0, 1, 2}, .name = {}, .number = 1});
@@ -165,7 +165,7 @@ TEST(RefusedProp, IsAScan) {
 }
 
 /// A cube on one face of which a small one stands, as one surface with a hole in that face.
-TEST(RefusedProp, HasAnotherBodyOnAFace) {
+TEST(RefusedProp, FaceWithARaisedPart) {
     Body body = both(cube(120), box(glm::dvec3(-20, -20, 120), glm::dvec3(20, 20, 140)));
     std::erase(body.faces, std::vector<std::size_t>{4, 5, 6, 7});
     std::erase(body.faces, std::vector<std::size_t>{11, 10, 9, 8});

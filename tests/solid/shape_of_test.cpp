@@ -12,7 +12,7 @@
 namespace frustumscreen::solid {
 namespace {
 
-TEST(ShapeOf, ACubeIsTheCubeOfTheSettings) {
+TEST(ShapeOf, CubeEqualsTheGeometryCube) {
     const geometry::PropShape cube = geometry::make_cube(0.12);
     const geometry::PropShape shape = shape_of(read(solid::cube(120.0))->solid, Underside::Lit);
     ASSERT_EQ(shape.faces.size(), 6U);
@@ -34,7 +34,7 @@ TEST(ShapeOf, ACubeIsTheCubeOfTheSettings) {
     }
 }
 
-TEST(ShapeOf, TheUndersideOfAPropOnTheTableBoundsItAndIsNotLit) {
+TEST(ShapeOf, DarkUndersideBoundsThePropWithoutBeingAFace) {
     const Solid solid = read(solid::cube(120.0))->solid;
     const geometry::PropShape lit = shape_of(solid, Underside::Lit);
     const geometry::PropShape dark = shape_of(solid, Underside::Dark);
@@ -53,7 +53,7 @@ TEST(ShapeOf, TheUndersideOfAPropOnTheTableBoundsItAndIsNotLit) {
 }
 
 /// Prisms and pyramids on polygons: each edge of a lit face has the neighbour that shares both of its ends.
-TEST(ShapeOf, EachEdgeHasItsNeighbour) {
+TEST(ShapeOf, EachEdgeHasTheCorrectNeighbour) {
     for (std::size_t sides = 3; sides <= 14; ++sides) {
         const Result<PropFile> file = read(prism(sides, 60.0, 100.0));
         ASSERT_TRUE(file.has_value()) << sides;

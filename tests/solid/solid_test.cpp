@@ -32,7 +32,7 @@ double min_of_many(const std::vector<glm::dvec3>& vertices, int count) {
     return best;
 }
 
-TEST(MinWidth, OfRegularBodies) {
+TEST(MinWidth, MatchesClosedFormsOfRegularBodies) {
     EXPECT_NEAR(min_width(solid_of(cube(120))).width_m, 0.12, 1e-15);
     EXPECT_NEAR(min_width(solid_of(box(glm::dvec3(0), glm::dvec3(50, 80, 90)))).width_m, 0.05, 1e-15);
     // A regular tetrahedron of edge e: e / sqrt(2), between two opposite edges, not e * sqrt(2/3), from a face.
@@ -55,7 +55,7 @@ TEST(MinWidth, OfRegularBodies) {
                 0.08 * (1.0 + std::cos(std::numbers::pi / 5.0)), 1e-15);
 }
 
-TEST(MinWidth, IsThatOfManyDirections) {
+TEST(MinWidth, MatchesTheMinimumOverManyDirections) {
     std::mt19937 random(4);
     constexpr int directions = 20000;
     // Each direction lies within 2 / sqrt(N) of one of N even ones; a width changes by the diameter times that.
@@ -81,7 +81,7 @@ TEST(MinWidth, IsThatOfManyDirections) {
     EXPECT_GT(between_edges, 3) << "some are narrowest between two edges";
 }
 
-TEST(Solid, AMovedOneIsTheSameElsewhere) {
+TEST(Solid, MovingKeepsVolumeWidthAndAreas) {
     std::mt19937 random(5);
     const Solid solid = solid_of(some_body(random, 11, 60.0));
     const geometry::RigidTransform to_from{glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, -2, 0.5))),
@@ -98,7 +98,7 @@ TEST(Solid, AMovedOneIsTheSameElsewhere) {
     }
 }
 
-TEST(Solid, StandsOnItsFeet) {
+TEST(Solid, CheckStandReportsOffsetsFromTheTable) {
     EXPECT_TRUE(check_stand(solid_of(cube(120))).has_value());
     const auto fault = [](const glm::dvec3& by) {
         const Result<void> stands = check_stand(moved(solid_of(cube(120)), {{1, 0, 0, 0}, by}));
@@ -114,7 +114,7 @@ TEST(Solid, StandsOnItsFeet) {
     EXPECT_NE(fault({0.2, -0.1, 0}).find("(200, -100, 60) mm"), std::string::npos) << fault({0.2, -0.1, 0});
 }
 
-TEST(Solid, IsNarrowerThanEyesAreApart) {
+TEST(Solid, NarrownessReportsWidthsBelowTheEyeDistance) {
     EXPECT_EQ(narrowness(solid_of(cube(63.0))), std::nullopt);
     const std::optional<std::string> said = narrowness(solid_of(cube(62.9)));
     ASSERT_TRUE(said);

@@ -71,7 +71,7 @@ pcm.mono_44100 {
     }
 };
 
-TEST_F(AlsaDevice, TheBytesThatArriveAreThePromptOnBothSides) {
+TEST_F(AlsaDevice, PlaysThePromptOnBothChannels) {
     const SharedPrompt prompt = noise(20'000, 20'000, 41);
     ASSERT_TRUE(say("kept", prompt));
     const std::vector<std::int16_t> frames = recorded("kept.raw");
@@ -87,7 +87,7 @@ TEST_F(AlsaDevice, TheBytesThatArriveAreThePromptOnBothSides) {
     EXPECT_LE(end_of_heard(left), static_cast<std::size_t>(found - left.begin()) + 20'000);
 }
 
-TEST_F(AlsaDevice, ACardThatIsMonoAndOfAnotherRateIsConvertedFor) {
+TEST_F(AlsaDevice, ConvertsForAMonoCardOfAnotherRate) {
     // A tone in the middle of the prompt keeps its length in seconds.
     const SharedPrompt tone = prompt_of(24'000, {}, [](std::size_t k) {
         return 10'000.0 * std::sin(2.0 * std::numbers::pi * 440.0 * static_cast<double>(k) / 48'000.0);
@@ -105,7 +105,7 @@ template <typename Done> bool until(Sound& sound, const SoundRequest& wish, cons
     return is_done;
 }
 
-TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
+TEST_F(AlsaDevice, SurvivesUnderrunsSuspensionsAndLosses) {
     FaultyCard& card = faulty_card();
     card.opened = 0;
     const auto plays_on = [&card](Sound& sound, const SoundRequest& wish) {
@@ -145,7 +145,7 @@ TEST_F(AlsaDevice, UnderrunsSuspensionsAndLossesAreSurvived) {
     EXPECT_EQ(sound.poll(monotonic_now(), wish).number, 1U); // the prompt continued meanwhile
 }
 
-TEST_F(AlsaDevice, TheQueueIsAsShortAsItIsSaid) {
+TEST_F(AlsaDevice, QueueIsNoLongerThanItsLimit) {
     Result<std::unique_ptr<PcmDevice>> device = open_alsa("nowhere");
     ASSERT_TRUE(device) << device.error().message;
     const Result<std::size_t> free = (*device)->free_samples();
@@ -154,7 +154,7 @@ TEST_F(AlsaDevice, TheQueueIsAsShortAsItIsSaid) {
     EXPECT_GE(*free, samples_in(longest_queue) / 2);
 }
 
-TEST_F(AlsaDevice, ALargeBufferIsNotFilled) {
+TEST_F(AlsaDevice, DoesNotFillALargeBuffer) {
     FaultyCard& card = faulty_card();
     card.period = 480;
     card.buffer = 48'000;
@@ -175,7 +175,7 @@ TEST_F(AlsaDevice, ALargeBufferIsNotFilled) {
     EXPECT_GE(most, samples_in(longest_queue) / 2);
 }
 
-TEST_F(AlsaDevice, ADeviceOfLongPeriodsSaysThatItSpeaksLate) {
+TEST_F(AlsaDevice, ReportsLateSpeechForLongPeriods) {
     FaultyCard& card = faulty_card();
     card.period = 2048;
     card.buffer = 8192;
@@ -189,7 +189,7 @@ TEST_F(AlsaDevice, ADeviceOfLongPeriodsSaysThatItSpeaksLate) {
     EXPECT_EQ((*device)->state().condition.health, DeviceHealth::Impaired);
 }
 
-TEST_F(AlsaDevice, ADeviceThatIsNotThereIsSaidInOneSentence) {
+TEST_F(AlsaDevice, NamesAMissingDevice) {
     const Result<std::unique_ptr<PcmDevice>> device = open_alsa("no_such_device");
     ASSERT_FALSE(device);
     EXPECT_EQ(device.error().kind, ErrorKind::DeviceLost);

@@ -127,7 +127,7 @@ bool has_begun(const SoundReport& report, std::uint64_t number) {
     return report.number == number || report.over >= number;
 }
 
-TEST(DeviceSound, APromptComesOutWholeAndIsOverThen) {
+TEST(DeviceSound, PlaysAPromptToItsEnd) {
     FakeCard card;
     const SharedPrompt prompt = noise(15'000, 20'000, 31);
     {
@@ -147,7 +147,7 @@ TEST(DeviceSound, APromptComesOutWholeAndIsOverThen) {
               heard.end());
 }
 
-TEST(DeviceSound, SpeechBeginsWithinTheQueueAndOneRound) {
+TEST(DeviceSound, StartsSpeechWithinTheQueueAndOneRound) {
     FakeCard card;
     card.plays = false;
     card.drains = true;
@@ -167,7 +167,7 @@ TEST(DeviceSound, SpeechBeginsWithinTheQueueAndOneRound) {
     EXPECT_LE(begin, played + capacity + capacity / 5); // 60 ms after the request
 }
 
-TEST(DeviceSound, ATimeInWhichItsThreadStoodStillIsNoStallOfTheDevice) {
+TEST(DeviceSound, PauseOfItsThreadIsNoDeviceStall) {
     FakeCard card;
     card.plays = false;
     card.drains = true;
@@ -186,7 +186,7 @@ TEST(DeviceSound, ATimeInWhichItsThreadStoodStillIsNoStallOfTheDevice) {
     EXPECT_EQ(card.opened, 1);
 }
 
-TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
+TEST(DeviceSound, KeepsTimeWithoutADeviceAndReconnects) {
     FakeCard card;
     card.plugged = false;
     DeviceSound sound(opener(card));
@@ -219,7 +219,7 @@ TEST(DeviceSound, CaptionsCarryOnWithoutADeviceAndSoundReturnsByItself) {
     EXPECT_EQ(card.heard().back(), 5000);
 }
 
-TEST(DeviceSound, ADeviceThatStandsStillIsOpenedAgain) {
+TEST(DeviceSound, ReopensAStalledDevice) {
     FakeCard card;
     DeviceSound sound(opener(card));
     const SoundRequest wish;
@@ -238,7 +238,7 @@ TEST(DeviceSound, ADeviceThatStandsStillIsOpenedAgain) {
     EXPECT_GE(card.opened, 2);
 }
 
-TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
+TEST(DeviceSound, RetriesASlowlyFailingDeviceRarely) {
     static constexpr Nanoseconds takes = milliseconds(300);
     std::atomic<int> asked{0};
     const MonotonicTime before = monotonic_now();
@@ -254,7 +254,7 @@ TEST(DeviceSound, ADeviceThatTakesLongToSayNoIsAskedSeldom) {
     EXPECT_LE(times, 1 + (monotonic_now() - before) / (11 * takes)); // each takes one part, and its pause ten
 }
 
-TEST(DeviceSound, UnderrunsOfAllDevicesAreCounted) {
+TEST(DeviceSound, AddsUpUnderrunsOfAllDevices) {
     FakeCard card;
     DeviceSound sound(opener(card));
     const SoundRequest wish;
@@ -267,7 +267,7 @@ TEST(DeviceSound, UnderrunsOfAllDevicesAreCounted) {
     ASSERT_TRUE(until(sound, wish, [](const SoundReport& report) { return report.underruns == 5; }));
 }
 
-TEST(DeviceSound, ADeviceThatTakesEverythingIsHeldBackToTheClock) {
+TEST(DeviceSound, PacesADeviceThatTakesEverything) {
     FakeCard card; // plays its data immediately, without end
     const MonotonicTime before = monotonic_now();
     DeviceSound sound(opener(card));
@@ -291,7 +291,7 @@ public:
     [[nodiscard]] DeviceState state() const override { return {{}, Sentence("nobody listens")}; }
 };
 
-TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {
+TEST(DeviceSound, AllocatesNothing) {
     if (!synthetic::allocations_are_counted) {
         GTEST_SKIP() << "the sanitizers bring their own allocations";
     }
@@ -315,7 +315,7 @@ TEST(DeviceSound, AFrameAllocatesNothingNorDoesItsThread) {
 
 /// For the thread sanitizer, and for the order of reports: the caller constantly changes its request, and the
 /// device constantly fails.
-TEST(DeviceSound, WishesAndLossesInAnyOrderLeaveNoPromptStuck) {
+TEST(DeviceSound, RandomRequestsAndLossesLeaveNoPromptStuck) {
     FakeCard card;
     card.fails_every = 7;
     DeviceSound sound([&card, open = opener(card)]() -> Result<std::unique_ptr<PcmDevice>> {

@@ -17,7 +17,7 @@ double step_of_fade(double height, double length) {
     return 1.5 * height / length + 1.0;
 }
 
-TEST(Mixer, APromptComesOutBitByBitButForTheFadesAtItsEnds) {
+TEST(Mixer, PlaysAPromptUnchangedExceptForItsFades) {
     Mixer mixer;
     SoundRequest wish;
     const SharedPrompt prompt = noise(2000, static_cast<int>(0.794 * 32768), 1);
@@ -33,7 +33,7 @@ TEST(Mixer, APromptComesOutBitByBitButForTheFadesAtItsEnds) {
     }
 }
 
-TEST(Mixer, HowTheSamplesAreAskedForChangesNone) {
+TEST(Mixer, BlockSizesDoNotChangeTheSamples) {
     const auto play = [](bool in_pieces) {
         Mixer mixer;
         SoundRequest wish;
@@ -58,7 +58,7 @@ TEST(Mixer, HowTheSamplesAreAskedForChangesNone) {
     EXPECT_EQ(play(true), play(false));
 }
 
-TEST(Mixer, APromptIsLeftWithinAMarkAndNowhereElse) {
+TEST(Mixer, LeavesAPromptOnlyWithinAMark) {
     std::mt19937 generator(6);
     const auto random = [&] { return static_cast<std::uint32_t>(generator()); };
     int left_early = 0;
@@ -96,7 +96,7 @@ TEST(Mixer, APromptIsLeftWithinAMarkAndNowhereElse) {
     EXPECT_GT(left_early, 150);
 }
 
-TEST(Mixer, WithoutAMarkItGoesOnToItsEnd) {
+TEST(Mixer, PlaysToTheEndWithoutAMark) {
     Mixer mixer;
     SoundRequest wish;
     wish.say(level(5000, 9000));
@@ -108,7 +108,7 @@ TEST(Mixer, WithoutAMarkItGoesOnToItsEnd) {
     EXPECT_NEAR(static_cast<double>(end_of_heard(mixed(mixer, 4000))), 5000 - 4100, 2.0); // fades to 0
 }
 
-TEST(Mixer, AStopFadesWithinMillisecondsAndTheNextPromptDoesNotWait) {
+TEST(Mixer, StopFadesAtOnceAndStartsTheNextPrompt) {
     Mixer mixer;
     SoundRequest wish;
     wish.say(level(second, 20'000));
@@ -126,7 +126,7 @@ TEST(Mixer, AStopFadesWithinMillisecondsAndTheNextPromptDoesNotWait) {
     EXPECT_EQ(mixer.report(Nanoseconds(0)).over, 1U);
 }
 
-TEST(Mixer, ANewPromptWaitsForTheMarkAndABreath) {
+TEST(Mixer, NewPromptWaitsForTheMarkAndAPause) {
     Mixer mixer;
     SoundRequest wish;
     wish.say(level(second, 10'000, {{10'000, 10'100}}));
@@ -143,7 +143,7 @@ TEST(Mixer, ANewPromptWaitsForTheMarkAndABreath) {
     EXPECT_LE(largest_step(heard), step_of_fade(10'000, fade));
 }
 
-TEST(Mixer, NumbersSayWhatIsOver) {
+TEST(Mixer, ReportsTheCurrentAndFinishedPrompts) {
     Mixer mixer;
     SoundRequest wish;
     const auto report = [&] { return mixer.report(Nanoseconds(0)); };
@@ -182,7 +182,7 @@ TEST(Mixer, NumbersSayWhatIsOver) {
     EXPECT_EQ(report().number, 0U);
 }
 
-TEST(Mixer, AnEmptyPromptIsOverAtOnce) {
+TEST(Mixer, EmptyPromptEndsAtOnce) {
     Mixer mixer;
     SoundRequest wish;
     wish.say(level(0, 0));
@@ -191,7 +191,7 @@ TEST(Mixer, AnEmptyPromptIsOverAtOnce) {
     EXPECT_EQ(mixer.report(Nanoseconds(0)).over, 1U);
 }
 
-TEST(Mixer, TheVolumeMovesSmoothlyToWhatIsWished) {
+TEST(Mixer, VolumeChangesSmoothly) {
     Mixer mixer;
     SoundRequest wish;
     wish.set_gain_db(-20.0);
@@ -209,7 +209,7 @@ TEST(Mixer, TheVolumeMovesSmoothlyToWhatIsWished) {
     EXPECT_EQ(mixed(mixer, second).back(), 0);
 }
 
-TEST(Mixer, GainsAreHeldWithinTheirLimits) {
+TEST(Mixer, ClampsGains) {
     EXPECT_FLOAT_EQ(amplitude_of(0.0), 1.0F);
     EXPECT_NEAR(amplitude_of(-6.0206), 0.5, 1e-6);
     EXPECT_EQ(amplitude_of(-60.0), 0.0F);
@@ -218,7 +218,7 @@ TEST(Mixer, GainsAreHeldWithinTheirLimits) {
     EXPECT_EQ(amplitude_of(1e300), amplitude_of(12.0));
 }
 
-TEST(Mixer, NothingClips) {
+TEST(Mixer, LimitsWithoutClipping) {
     Mixer mixer;
     SoundRequest wish;
     wish.set_gain_db(12.0);

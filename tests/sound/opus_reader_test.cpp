@@ -64,7 +64,7 @@ std::string refusal(std::span<const std::byte> bytes, const OpusLimits& limits =
     return prompt ? "" : test::told(prompt.error());
 }
 
-TEST(OpusReader, ARecordedToneComesBackWholeAndInPlace) {
+TEST(OpusReader, DecodesAToneWithoutDelay) {
     const Result<Prompt> prompt = read_opus(fixture("tone.opus"));
     ASSERT_TRUE(prompt) << prompt.error().message;
     EXPECT_EQ(prompt->samples.size(), 24'000U);
@@ -79,7 +79,7 @@ TEST(OpusReader, TwoChannelsAreAveraged) {
     EXPECT_LT(error_db(prompt->samples, 0.25), -25.0);
 }
 
-TEST(OpusReader, MoreChannelsAndMoreRecordingsInOneFileAreRefused) {
+TEST(OpusReader, RejectsFourChannelsAndChainedRecordings) {
     EXPECT_NE(refusal(fixture("four.opus")).find("4 channels"), std::string::npos);
     Bytes chain = fixture("tone.opus");
     const Bytes left = fixture("left.opus");
@@ -87,7 +87,7 @@ TEST(OpusReader, MoreChannelsAndMoreRecordingsInOneFileAreRefused) {
     EXPECT_NE(refusal(chain).find("[opus.several]"), std::string::npos);
 }
 
-TEST(OpusReader, WhatIsOrClaimsToBeTooLongIsRefused) {
+TEST(OpusReader, RejectsActualAndClaimedExcessLength) {
     OpusLimits limits;
     limits.longest = std::chrono::milliseconds(499);
     EXPECT_NE(refusal(fixture("tone.opus"), limits).find("longer than 0 s"), std::string::npos);
@@ -101,7 +101,7 @@ TEST(OpusReader, WhatIsOrClaimsToBeTooLongIsRefused) {
     EXPECT_LE(boastful->samples.size(), honest->samples.size() + 960);
 }
 
-TEST(OpusReader, WhatIsNoRecordingIsRefusedInOneSentence) {
+TEST(OpusReader, RejectsOtherDataAndSurvivesTruncation) {
     EXPECT_NE(refusal({}).find("not an Ogg Opus"), std::string::npos);
     EXPECT_NE(refusal(as_bytes("RIFF....WAVEfmt ")).find("not an Ogg Opus"), std::string::npos);
     const Bytes whole = fixture("tone.opus");

@@ -26,7 +26,7 @@ std::vector<std::int16_t> broken(std::size_t length_ms,
     return samples;
 }
 
-TEST(Pauses, AreFoundWhereTheyAreLongAndQuietEnough) {
+TEST(Pauses, AreFoundIfLongAndQuietEnough) {
     for (const int quiet : {0, 100, 250}) { // 250 / 8000 = -30 dB; the pauses make the mean lower, too
         const std::vector<Mark> marks =
             find_pauses(broken(2000, {{300, 470}, {800, 940}, {1500, 1900}}, quiet));
@@ -37,7 +37,7 @@ TEST(Pauses, AreFoundWhereTheyAreLongAndQuietEnough) {
     EXPECT_TRUE(find_pauses(broken(2000, {{300, 600}}, 600)).empty()); // -22 dB is not a pause
 }
 
-TEST(Pauses, AFadeThatBeginsInAMarkIsOverBeforeThePause) {
+TEST(Pauses, FadeFromAMarkEndsWithinThePause) {
     for (std::size_t at = 301; at < 320; ++at) { // at any phase of the finder's frames
         const std::vector<Mark> marks = find_pauses(broken(1000, {{at, at + 180}}, 0));
         EXPECT_EQ(marks.size(), 1U) << at;
@@ -49,7 +49,7 @@ TEST(Pauses, AFadeThatBeginsInAMarkIsOverBeforeThePause) {
     }
 }
 
-TEST(Pauses, SilenceIsOnePauseAndNothingHasNone) {
+TEST(Pauses, SilenceIsOnePauseAndEmptySoundHasNone) {
     const std::vector<Mark> marks = find_pauses(level(1000 * ms, 0)->samples);
     ASSERT_EQ(marks.size(), 1U);
     EXPECT_EQ(marks[0], (Mark{20 * ms, 985 * ms}));
@@ -59,7 +59,7 @@ TEST(Pauses, SilenceIsOnePauseAndNothingHasNone) {
 
 /// 'Spostatelo un poco a sinistra. Nella bottega c'era un gatto matto.', with three long closures inside
 /// words.
-TEST(Pauses, AreThoseBetweenSentencesNotTheLongConsonantsOfItalian) {
+TEST(Pauses, SeparateSentencesNotLongConsonants) {
     const Result<Bytes> bytes = read_file(source_dir() + "/tests/sound/fixtures/speech.opus");
     ASSERT_TRUE(bytes);
     const Result<Prompt> speech = read_opus(*bytes);

@@ -34,7 +34,7 @@ TEST(SampleClock, LosesNoSampleToRounding) {
     EXPECT_EQ(samples_in(seconds(86'400)), 86'400ULL * 48'000);
 }
 
-TEST(SilentSound, KeepsTimeAsIfItWasHeard) {
+TEST(SilentSound, ReportsProgressInRealTime) {
     SilentSound sound(start);
     SoundRequest wish;
     wish.say(level(48'000, 1000));
@@ -50,7 +50,7 @@ TEST(SilentSound, KeepsTimeAsIfItWasHeard) {
     EXPECT_FALSE(sound.alive_until());
 }
 
-TEST(WavSound, HearsWhatTheSilentOneKeepsTimeOf) {
+TEST(WavSound, ReportsMatchTheSilentSound) {
     SilentSound silent(start);
     WavSound wav(start);
     SoundRequest wish;
@@ -80,7 +80,7 @@ TEST(WavSound, HearsWhatTheSilentOneKeepsTimeOf) {
 }
 
 /// Python's own WAV reader gives equal samples.
-TEST(WavSound, IsAWaveFileForOthers) {
+TEST(WavSound, PythonReadsTheWavFile) {
     if (std::system("command -v python3 >/dev/null") != 0) {
         GTEST_SKIP() << "python3 is not installed";
     }

@@ -7,7 +7,7 @@
 namespace frustumscreen::sound {
 namespace {
 
-TEST(Volume, IsThatOfTheHourWithASlowRampAtItsBegin) {
+TEST(Volume, FollowsTheHoursWithARampAtEachStart) {
     const Volume volume{-2.0, {{8.0, 0.0}, {18.0, -6.0}, {22.0, -20.0}}};
     EXPECT_DOUBLE_EQ(gain_db_at(volume, 12.0), -2.0);
     EXPECT_DOUBLE_EQ(gain_db_at(volume, 18.0), -2.0);
@@ -19,7 +19,7 @@ TEST(Volume, IsThatOfTheHourWithASlowRampAtItsBegin) {
     EXPECT_DOUBLE_EQ(gain_db_at(volume, 8.125), -12.0);
 }
 
-TEST(Volume, NeverJumpsNotEvenOverMidnightOrInShortHours) {
+TEST(Volume, NeverJumpsEvenAtMidnightOrInShortPeriods) {
     const std::vector<Volume> volumes = {
         {0.0, {}},
         {3.0, {{5.0, -10.0}}},

@@ -132,7 +132,7 @@ class Status(unittest.TestCase):
 
 
 class Text(Status):
-    def test_a_well_exhibit_in_one_screen(self):
+    def test_fits_a_well_exhibit_on_one_screen(self):
         self.write("status.json", exhibit())
         self.write("dog.json", watchdog(notes=["the disk is 95 % full", 3, "it is hot\n"]))
         self.write("ends", f"{NOW_S - 36010} success exited 0\n{NOW_S - 240} watchdog killed KILL\n".encode())
@@ -159,7 +159,7 @@ class Text(Status):
         self.assertEqual(self.line(text, "machine"), "the disk is 95 % full; it is hot?")
         self.assertEqual(self.line(text, "versions"), "FrustumScreen 1.2.3, packs of format 2, Debian GNU/Linux 12, Linux 6.1")
 
-    def test_the_last_crashes(self):
+    def test_lists_the_last_crashes(self):
         self.write("status.json", exhibit())
         self.assertNotIn("last crashes", self.text(0))
         self.crash(1, 1767225600, "llvmpipe-0", "compiled+0x7f0012", "guess swrast_dri.so+0x1f3a0")
@@ -174,18 +174,18 @@ class Text(Status):
         self.assertEqual([(crash["unix_s"], crash["frames"], crash["whole"]) for crash in crashes],
                          [(1767225660, ["frustumscreen+0x1234"], True), (1767225600, ["compiled+0x7f0012"], True)])
 
-    def test_the_time_of_day_since_when_it_is_shown(self):
+    def test_prints_since_when_an_artifact_is_shown(self):
         self.write("status.json", exhibit(shown_for_s=3 * 86400.0))
         begun = time.time() - 1  # time(2), which the program asks, is coarser
         shown = self.line(self.text(0), "on the screen")
         days = {time.strftime("%Y-%m-%d", time.gmtime(int(now) - 3 * 86400 - 1)) for now in (begun, time.time())}
         self.assertIn(shown.partition("for 72 h 0 min, since ")[2].split(" ")[0], days)  # two, around midnight
 
-    def test_without_a_watchdog_it_says_so(self):
+    def test_reports_a_missing_watchdog(self):
         self.write("status.json", exhibit())
         self.assertRegex(self.line(self.text(0), "watchdog"), r"^unknown: .*dog.json: there is no such file$")
 
-    def test_the_system_of_an_appliance_and_an_update_that_did_not_start(self):
+    def test_prints_the_system_version_and_a_failed_update(self):
         self.write("status.json", exhibit())
         self.assertNotIn("\nsystem ", self.text(0))  # this is a computer that was not made from the image
         (self.folder / "boot").mkdir()
@@ -196,10 +196,10 @@ class Text(Status):
         self.assertEqual(self.line(self.text(0), "system"),
                          "version 1.4.0, slot b; data: it was mended; version 1.5.0 did not start?")
 
-    def test_nothing_is_known(self):
+    def test_reports_an_unknown_status(self):
         self.assertRegex(self.text(1), r"^The exhibit's status is unknown: .*status.json: there is no such file; systemctl status frustumscreen says more\.\n")
 
-    def test_a_status_that_is_old(self):
+    def test_reports_the_age_of_an_old_status(self):
         self.write("status.json", exhibit(monotonic_ns=ns(NOW_S - 300)))
         text = self.text(1)
         self.assertTrue(text.startswith(
@@ -208,31 +208,31 @@ class Text(Status):
         self.assertTrue(self.line(text, "on the screen").endswith("(en), for 2 h 0 min"), text)
         self.assertIn("it ran for 10 h 0 min", self.line(text, "starts"))
 
-    def test_a_status_is_of_now_for_five_seconds(self):
+    def test_a_status_is_current_for_five_seconds(self):
         for age_s, expected in ((0.0, 0), (5.0, 0), (5.01, 1)):
             self.write("status.json", exhibit(monotonic_ns=ns(NOW_S) - ns(age_s)))
             self.text(expected)
 
-    def test_a_status_of_another_boot_is_old_however_its_clock_stands(self):
+    def test_a_status_of_another_boot_is_old(self):
         self.write("status.json", exhibit(boot_id="00000000-0000-0000-0000-000000000000"))
         self.assertIn("its status is from before the machine was started", self.text(1))
 
-    def test_a_status_from_the_future_is_none_of_now(self):
+    def test_rejects_a_status_from_the_future(self):
         self.write("status.json", exhibit(monotonic_ns=ns(NOW_S + 3600)))
         self.assertIn("does not say when it was written", self.text(1))
 
-    def test_the_wall_clock_is_not_asked(self):
+    def test_ignores_the_wall_clock(self):
         self.write("status.json", exhibit(written_at="1970-01-01T00:00:00Z"))
         self.assertIn("runs and is well", self.text(0))
 
-    def test_what_is_not_well(self):
+    def test_names_the_fault_in_the_first_line(self):
         for changes, words in (({"health": "hangs"}, "not well"), ({"health": "no_picture"}, "not well"),
                                ({"health": "unheard of"}, "not well: its health is 'unheard of'"),
                                ({"state": "fault", "artifact": ""}, "has no artifact that it can show")):
             self.write("status.json", exhibit(**changes))
             self.assertIn(words, self.text(1).split("\n")[0])
 
-    def test_what_the_watchdog_complains_of(self):
+    def test_prints_the_watchdogs_trouble_and_mode(self):
         trouble = {"cause": "hot", "sentence": "the machine is hot", "since_s": 90}
         for changes, words in (({"trouble": trouble}, "its watchdog says: the machine is hot"),
                                ({"mode": "built_in"}, "its watchdog lets the exhibit show a built-in artifact")):
@@ -242,7 +242,7 @@ class Text(Status):
         self.write("dog.json", watchdog(trouble=trouble, monotonic_ns=ns(NOW_S - 1000)))
         self.assertIn("runs and is well", self.text(0))  # an old complaint does not count
 
-    def test_devices_of_the_settings_that_are_missing(self):
+    def test_names_missing_devices(self):
         self.write("status.json", exhibit(**NO_TRACKER))
         text = self.text(1)
         self.assertEqual(text.split("\n")[0], "The exhibit runs, but: no tracker is connected.")
@@ -254,12 +254,12 @@ class Text(Status):
         self.assertEqual(self.text(1).split("\n")[0],
                          "The exhibit runs, but: no tracker is connected; the buttons' GPIO chip cp2112_gpio: it is not there.")
 
-    def test_devices_that_the_settings_do_not_ask_for_are_not_missing(self):
+    def test_devices_without_settings_are_not_missing(self):
         none = {name: device(None, "device.none") for name in devices()}
         self.write("status.json", exhibit(devices=none, tracker="a simulated visitor moves the prop; no tracker is used"))
         self.assertTrue(self.text(0).startswith("The exhibit runs and is well.\n"))
 
-    def test_a_device_that_is_there_and_impaired_is_named(self):
+    def test_names_impaired_devices(self):
         for changes, words, short_name in (
                 ({"devices": devices(panel=device(True, "panel.stuck", True)),
                   "panel": "a button is stuck and is ignored; free it or replace it"},
@@ -272,14 +272,14 @@ class Text(Status):
         self.write("status.json", exhibit(**(NO_TRACKER | {"drifted": True, "drift": "it moved"})))
         self.assertEqual(self.text(1).split("\n")[0], "The exhibit runs, but: no tracker is connected.")
 
-    def test_what_is_worse_comes_first(self):
+    def test_prints_the_most_severe_fault_first(self):
         self.write("status.json", exhibit(health="frozen", **NO_TRACKER))
         self.assertIn("is not well: the picture that is presented", self.text(1).split("\n")[0])
         self.write("status.json", exhibit(**NO_TRACKER))
         self.write("dog.json", watchdog(mode="built_in"))
         self.assertIn("its watchdog lets the exhibit show a built-in artifact", self.text(1).split("\n")[0])
 
-    def test_the_computer(self):
+    def test_prints_disk_and_temperature(self):
         self.write("status.json", exhibit())
         self.assertEqual(self.line(self.text(0), "computer"), "on for 25 h 0 min")  # nothing else is known here
         (self.folder / "data").mkdir()
@@ -295,7 +295,7 @@ class Text(Status):
         self.assertRegex(self.line(self.text(0), "computer"),
                          r"^on for 25 h 0 min; [0-9.]+ of [0-9.]+ GB of its disk are free; 61 degrees Celsius at its hottest sensor$")
 
-    def test_visitors(self):
+    def test_prints_visits(self):
         self.write("status.json", exhibit())
         self.assertNotIn("\nvisitors ", self.text(0))
         visits = {"today": 34, "since_start": 40, "today_s": 7080.0, "since_start_s": 8000.0, "trouble": ""}
@@ -304,7 +304,7 @@ class Text(Status):
         self.write("status.json", exhibit(visits=visits | {"trouble": "the disk is full"}))
         self.assertEqual(self.line(self.text(0), "visitors"), "today 34 visits, 118 minutes in all; the disk is full")
 
-    def test_wrong_use(self):
+    def test_rejects_wrong_options(self):
         for options in (("--json", "--prometheus"), ("--no-such-option",), ("word",)):
             done = self.run_status(*options)
             self.assertEqual((done.returncode, done.stdout), (2, b""))
@@ -316,7 +316,7 @@ class Hostile(Status):
         b"", b"\x00", b"null", b"[]", b"3", b"{", b"{\"a\":1,\"a\":2}", b"[" * 100000, b"{\"a\":" * 5000, b"\xff\xfe{}",
         b" " * (1 << 20) + b"{}")
 
-    def test_what_is_no_status_is_said_in_one_line(self):
+    def test_reports_an_invalid_status_in_one_line(self):
         for document in self.DOCUMENTS:
             self.write("status.json", document)
             self.write("dog.json", document)
@@ -324,7 +324,7 @@ class Hostile(Status):
             self.assertRegex(text.split("\n")[0], r"^The exhibit's status is unknown: .*\.$")
             self.assertLess(text.count("\n"), 6)
 
-    def test_no_type_and_no_value_ends_the_program(self):
+    def test_survives_any_type_and_value(self):
         values = (None, True, -1, 1e308, -1e308, 2**64 - 1, "", "x" * 100000, "\u202e\x1b[2J\x07\n\x9b", [], [[]], {}, {"a": []},
                   [None, 3, "x", {"pack": 3, "title": {}, "at": 1}])
         of_now = {"monotonic_ns": ns(WRITTEN_S), "boot_id": BOOT_ID}
@@ -343,7 +343,7 @@ class Hostile(Status):
         self.assertFalse(re.search(rb"[\x00-\x09\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80\xae", done.stdout), status)
         list(text_string_to_metric_families(self.run_status("--prometheus").stdout.decode()))
 
-    def test_files_that_are_none(self):
+    def test_reports_paths_that_are_no_files(self):
         os.mkfifo(self.folder / "status.json")  # reading it would wait for ever
         (self.folder / "dog.json").mkdir()
         (self.folder / "ends").symlink_to("/dev/zero")
@@ -352,14 +352,14 @@ class Hostile(Status):
         (self.folder / "boot/notes").symlink_to("/dev/zero")
         self.assertIn("status is unknown", self.text(1))
 
-    def test_ends_that_are_none(self):
+    def test_skips_invalid_lines_of_ends(self):
         self.write("status.json", exhibit())
         self.write("ends", b"\n\nnan watchdog a b\nx signal killed SEGV\n5\n5 \n\x00\xff\n7 invented \x1b[2J x y z\n8 oom-kill killed KILL")
         self.assertIn("it has ended 2 times, last", self.line(self.text(0), "starts"))
 
 
 class Json(Status):
-    def test_both_files_under_fixed_keys(self):
+    def test_contains_both_files_under_fixed_keys(self):
         self.write("status.json", exhibit())
         self.write("dog.json", watchdog())
         self.boot_folder("1.4.0", "frustumscreen-a", "system: it did not start")
@@ -379,7 +379,7 @@ class Json(Status):
         self.assertEqual(known["ends"]["last"]["result"], "core-dump")
         self.assertEqual(known["ends"]["last"]["ago_s"], 60)
 
-    def test_the_keys_are_there_when_nothing_is_known(self):
+    def test_contains_all_keys_without_a_status(self):
         done = self.run_status("--json")
         self.assertEqual(done.returncode, 1)
         known = json.loads(done.stdout)
@@ -389,7 +389,7 @@ class Json(Status):
         self.assertEqual((known["id"], known["watchdog"]["id"]), ("exhibit.unknown", "watchdog.unknown"))
         self.assertEqual((known["machine"]["hottest_c"], known["machine"]["disk"]), (None, None))
 
-    def test_each_sentence_of_the_watchdog_has_its_id(self):
+    def test_each_watchdog_sentence_has_an_id(self):
         self.write("status.json", exhibit())
         trouble = {"cause": "no_picture", "sentence": "the exhibit shows no live picture", "since_s": 90}
         for changes, short_name in (({"trouble": trouble}, "watchdog.no_picture"), ({"mode": "plain"}, "watchdog.plain"),
@@ -426,7 +426,7 @@ class Prometheus(Status):
         self.assertEqual(len(found), 1, name)
         return found[0]
 
-    def test_the_numbers_in_base_units(self):
+    def test_prints_numbers_in_base_units(self):
         self.write("status.json", exhibit())
         self.write("dog.json", watchdog())
         self.boot_folder("1.4.0", "frustumscreen-a", "one", "two")
@@ -451,14 +451,14 @@ class Prometheus(Status):
         self.assertEqual(self.value(families, "system_notes"), 2)
         self.assertEqual(self.value(families, "watchdog_mode", mode="normal"), 1)
 
-    def test_one_sample_for_each_device_of_the_settings(self):
+    def test_prints_one_sample_per_configured_device(self):
         self.write("status.json", exhibit(**NO_TRACKER))
         families = self.families(1)
         self.assertEqual(self.value(families, "well"), 0)
         self.assertEqual({sample.labels["device"]: sample.value for sample in families["frustumscreen_device_ok"].samples},
                          {"display": 1, "tracker": 0, "panel": 1, "sound": 1})
 
-    def test_the_screen_behind_the_table(self):
+    def test_prints_the_screen_behind_the_table(self):
         picture = {"health": "well", "code": 7, "shown_code": 6, "presented": 7000, "drawn": 600, "held_up": 5,
                    "frame_ms": {"p50": 4.5, "p95": 6.0, "p99": 9.25}}
         lit = exhibit(devices=devices(screen=device(True, "display.lit")), screen="the screen at DP-1 is lit", screen_picture=picture)
@@ -472,7 +472,7 @@ class Prometheus(Status):
         self.write("status.json", lit | away)
         self.assertTrue(self.text(1).startswith("The exhibit runs, but: no screen is connected to DP-1, or it is off.\n"))
 
-    def test_the_machine_and_its_visitors(self):
+    def test_prints_the_machine_and_its_visits(self):
         (self.folder / "data").mkdir()
         self.sensor("thermal/thermal_zone0", temp="54000")
         self.write("status.json", exhibit(visits={"today": 3, "since_start": 40, "today_s": 1.0, "since_start_s": 8000.5}))
@@ -483,14 +483,14 @@ class Prometheus(Status):
         self.assertLess(self.value(families, "disk_free_bytes"), self.value(families, "disk_size_bytes"))
         self.assertEqual(self.value(families, "machine_uptime_seconds"), NOW_S)
 
-    def test_an_exhibit_that_does_not_run_has_no_numbers_of_its_own(self):
+    def test_omits_the_exhibits_numbers_if_it_does_not_run(self):
         self.write("status.json", exhibit(monotonic_ns=1))
         families = self.families(1)
         self.assertEqual(self.value(families, "up"), 0)
         self.assertEqual(self.value(families, "watchdog_up"), 0)
         self.assertNotIn("frustumscreen_frames", families)
 
-    def test_a_title_cannot_leave_its_label(self):
+    def test_escapes_titles_in_labels(self):
         title = "a\"} 1\nfrustumscreen_up 5\n\\"
         self.write("status.json", exhibit(artifact=title))
         families = self.families(0)
@@ -529,14 +529,14 @@ class Screenshot(Status):
         (self.folder / "staff.sock").unlink()
         return done
 
-    def test_the_answer_is_written_and_the_text_is_printed(self):
+    def test_writes_the_picture_and_prints_the_status(self):
         done = self.answered(b"ok 5\nhello")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         self.assertEqual(self.question, b"screenshot\n")
         self.assertEqual((self.folder / "shot.png").read_bytes(), b"hello")
         self.assertIn(b"runs and is well", done.stdout)
 
-    def test_no_other_answer_becomes_a_file(self):
+    def test_writes_no_file_for_other_answers(self):
         for answer in (b"", b"ok 6\nhello", b"ok 4\nhello", b"ok -1\n", b"ok x\n", b"ok 99999999999999999999\n", b"hello" * 1000,
                        b"no it \x1b[2J hangs\n"):
             done = self.answered(answer)
@@ -546,7 +546,7 @@ class Screenshot(Status):
             self.assertFalse((self.folder / "shot.png").exists())
             self.assertIn(b"runs and is well", done.stdout)
 
-    def test_nobody_listens(self):
+    def test_reports_that_no_exhibit_listens(self):
         self.write("status.json", exhibit())
         done = self.run_status("--screenshot", self.folder / "shot.png")
         self.assertEqual(done.returncode, 1)

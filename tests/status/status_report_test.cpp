@@ -134,7 +134,7 @@ void collect(const nlohmann::ordered_json& json, const std::string& place,
     }
 }
 
-TEST(StatusReport, WhatWasWrittenIsReadAgain) {
+TEST(StatusReport, RoundTrip) {
     const StatusReport report = full_report();
     const std::string json = status_json(report);
     const StatusReport read = read_status_report(nlohmann::json::parse(json));
@@ -152,14 +152,14 @@ TEST(StatusReport, WhatWasWrittenIsReadAgain) {
     EXPECT_EQ(status_json(usual), status_json({}));
 }
 
-TEST(StatusReport, HasTheImportersReportAsItsFileHasIt) {
+TEST(StatusReport, ContainsTheImportReportUnchanged) {
     const StatusReport report = full_report();
     EXPECT_EQ(parsed(report).at("import").dump(),
               nlohmann::ordered_json::parse(library::write_import_report(*report.import)).dump());
 }
 
 /// Each key of the file has a member of the report, which full_report sets.
-TEST(StatusReport, EachKeyHasItsMember) {
+TEST(StatusReport, WritesEachKeyFromAMember) {
     std::map<std::string, nlohmann::ordered_json> usual;
     std::map<std::string, nlohmann::ordered_json> full;
     collect(parsed({}), "", usual);
@@ -175,7 +175,7 @@ TEST(StatusReport, EachKeyHasItsMember) {
     EXPECT_GT(compared, 60U);
 }
 
-TEST(StatusReport, ADeviceThatIsNotAskedForIsNeitherWellNorMissing) {
+TEST(StatusReport, LeavesUnusedDevicesWithoutHealth) {
     EXPECT_FALSE(DeviceReport(DeviceCondition{}).ok);
     EXPECT_EQ(DeviceReport({DeviceHealth::Well, "panel.well"}).ok, true);
     EXPECT_EQ(DeviceReport({DeviceHealth::Impaired, "panel.stuck"}).ok, true);
@@ -183,7 +183,7 @@ TEST(StatusReport, ADeviceThatIsNotAskedForIsNeitherWellNorMissing) {
     EXPECT_EQ(DeviceReport({DeviceHealth::Away, "panel.lost"}).id, "panel.lost");
 }
 
-TEST(StatusReport, WhatIsMissingIsNothingAndTheRestIsRead) {
+TEST(StatusReport, IgnoresMissingKeysAndKeysOfTheWrongType) {
     const nlohmann::json whole = nlohmann::json::parse(status_json(full_report()));
     for (const auto& [key, value] : whole.items()) {
         nlohmann::json less = whole;
@@ -202,7 +202,7 @@ TEST(StatusReport, WhatIsMissingIsNothingAndTheRestIsRead) {
     EXPECT_FALSE(read_status_report({1, 2}).frame_ms.p50);
 }
 
-TEST(StatusReport, NumbersAreHeldWithinTheirTypes) {
+TEST(StatusReport, ClampsNumbersToTheirTypes) {
     const auto samples_of = [](const char* number) {
         return read_status_report(nlohmann::json::parse(std::string(R"({"samples": )") + number + "}"))
             .samples;
@@ -217,7 +217,7 @@ TEST(StatusReport, NumbersAreHeldWithinTheirTypes) {
     EXPECT_FALSE(read_status_report({{"monotonic_ns", 1e300}}).written.monotonic);
 }
 
-TEST(StatusReport, TextsComeAsOnePrintableLine) {
+TEST(StatusReport, CleansTextsToOnePrintableLine) {
     const StatusReport read =
         read_status_report({{"artifact", "a\nb\x1b[2J"}, {"language", std::string(1000, 'x')}});
     EXPECT_EQ(read.artifact, "a?b?[2J");
@@ -231,7 +231,7 @@ TEST(StatusReport, TextsComeAsOnePrintableLine) {
 }
 
 /// The exhibit's own lines are those that `frustumscreen status` makes from its file.
-TEST(StatusReport, HasTheSameLinesFromItsFile) {
+TEST(StatusReport, GivesTheSameLinesAfterARoundTrip) {
     const StatusReport report = full_report();
     const StatusReport read = read_status_report(nlohmann::json::parse(status_json(report)));
     const std::vector<StatusLine> own = status_lines(&report, 0.0, nullptr, 1777651200);
@@ -244,7 +244,7 @@ TEST(StatusReport, HasTheSameLinesFromItsFile) {
     }
 }
 
-TEST(StatusPage, HasTheTableOfTheDescription) {
+TEST(StatusPage, ContainsTheTableOfFields) {
     const Result<Bytes> page = read_file(source_dir() + "/docs/status.md");
     ASSERT_TRUE(page) << page.error().message;
     EXPECT_TRUE(as_text(*page).ends_with("\n|---|---|\n" + status_field_table()))
@@ -253,7 +253,7 @@ TEST(StatusPage, HasTheTableOfTheDescription) {
 }
 
 /// The row of a field describes its inner fields.
-TEST(StatusPage, NamesWhatIsInsideOfAField) {
+TEST(StatusPage, NamesTheInnerFieldsOfEachField) {
     const std::string table = "\n" + status_field_table();
     std::size_t inside = 0;
     const nlohmann::ordered_json json = parsed(full_report());
@@ -272,7 +272,7 @@ TEST(StatusPage, NamesWhatIsInsideOfAField) {
     EXPECT_GT(inside, 35U);
 }
 
-TEST(Prometheus, LeavesOutWhatTheFileDoesNotSay) {
+TEST(Prometheus, LeavesOutMissingKeys) {
     const StatusClock clock{MonotonicTime(seconds(1000)), "boot"};
     const auto text_of = [&](const nlohmann::json& json) {
         return prometheus_text({parse_status(json.dump(), clock), {}});
@@ -301,7 +301,7 @@ TEST(Prometheus, LeavesOutWhatTheFileDoesNotSay) {
     EXPECT_TRUE(has(some, "packs_left_out 0"));
 }
 
-TEST(Prometheus, HasEachFamilyInOnePlace) {
+TEST(Prometheus, WritesEachFamilyOnce) {
     const std::string text = prometheus_text(
         {parse_status(status_json(full_report()), {MonotonicTime(seconds(1000)), "boot"}), {}});
     std::set<std::string> families;
@@ -311,7 +311,7 @@ TEST(Prometheus, HasEachFamilyInOnePlace) {
     EXPECT_GT(families.size(), 35U);
 }
 
-TEST(WatchdogStatus, WhatIsMissingIsNothing) {
+TEST(WatchdogStatus, IgnoresMissingAndMalformedKeys) {
     const WatchdogStatus nothing = read_watchdog_status(nullptr);
     EXPECT_TRUE(nothing.mode.empty() && !nothing.trouble && !nothing.step && nothing.faults.empty());
     const WatchdogStatus status = read_watchdog_status(

@@ -68,7 +68,7 @@ Seen seen(double size_m, double camera_m) {
 }
 
 /// docs/torch.md has these figures: a tag of 40 mm at 1.3 m, of 60 mm at 1.6 m.
-TEST(LampTag, IsSureMostOfTheTimeAndItsLightIsOffByLittle) {
+TEST(LampTag, GivesASureAndAccuratePoseInMostFrames) {
     for (const auto& [size_m, camera_m] :
          {std::pair(0.04, 1.3), std::pair(0.06, 1.3), std::pair(0.06, 1.6)}) {
         const Seen result = seen(size_m, camera_m);
@@ -80,7 +80,7 @@ TEST(LampTag, IsSureMostOfTheTimeAndItsLightIsOffByLittle) {
 }
 
 /// One that is too small for the distance gives no pose rather than a wrong one.
-TEST(LampTag, TooSmallIsNotFollowed) {
+TEST(LampTag, RarelyGivesAPoseWhenTooSmall) {
     const Seen result = seen(0.03, 1.6);
     EXPECT_LT(result.sure, 0.1 * result.looked_at);
     EXPECT_LT(result.worst_deg, 3.0);

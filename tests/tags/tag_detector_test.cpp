@@ -22,7 +22,7 @@ simulators::PropMotion standing(const geometry::RigidTransform& pose) {
     return [pose](double) { return pose; };
 }
 
-TEST(TagDetector, FindsTheCornersWhereTheyAre) {
+TEST(TagDetector, FindsCornersWithoutBias) {
     simulators::SceneCamera camera = above();
     camera.read_noise = camera.shot_noise = 0.0;
     camera.gamma = 1.0;
@@ -49,7 +49,7 @@ TEST(TagDetector, FindsTheCornersWhereTheyAre) {
     EXPECT_LT(glm::length(bias), 0.05) << bias.x << " " << bias.y;
 }
 
-TEST(TagDetector, FindsNothingInNoPicture) {
+TEST(TagDetector, FindsNothingInEmptyOrMisshapenPictures) {
     TagDetector detector;
     std::vector<FoundTag> found(3);
     detector.find({}, 1280, 720, found);
@@ -62,7 +62,7 @@ TEST(TagDetector, FindsNothingInNoPicture) {
     }
 }
 
-TEST(TagDetector, ASceneGivesThePose) {
+TEST(TagDetector, FindsTagsThatGiveThePose) {
     const simulators::SceneCamera camera = above();
     const std::vector<PropTag> tags = simulators::tags_of({});
     const geometry::RigidTransform pose{tracking::rotation_of({0.0, 0.0, -0.4}), {-0.05, 0.02, 0.0}};

@@ -19,7 +19,7 @@ simulators::TagCase slid_at(double speed_m_s) {
     return one;
 }
 
-TEST(TagFigures, AMotionOfItsOwnMovesTheProp) {
+TEST(TagFigures, GrowWithTheMotionOfTheProp) {
     constexpr std::size_t pictures = 2;
     const simulators::TagFigures rest = simulators::measure(slid_at(0.0), pictures, 1);
     const simulators::TagFigures slid = simulators::measure(slid_at(0.3), pictures, 1);

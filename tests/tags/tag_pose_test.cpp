@@ -62,7 +62,7 @@ TEST(TagPose, ExactCornersGiveTheExactPose) {
 
 /// The reported standard deviation equals the actual one within a fifth, for one tilted tag, for three and
 /// for all.
-TEST(TagPose, SaysHowMuchItScatters) {
+TEST(TagPose, ReportsItsStandardDeviation) {
     std::mt19937_64 random(2);
     const simulators::Skirt skirt{.tag_m = 0.08, .slope_deg = 40.0};
     for (const std::size_t count : {1U, 3U, 8U}) {
@@ -88,7 +88,7 @@ TEST(TagPose, SaysHowMuchItScatters) {
 
 /// Small, far and seen from almost above: the tilt is ambiguous. The result must never be both sure and
 /// wrong.
-TEST(TagPose, ASmallSingleTagIsNeverWrongAndSure) {
+TEST(TagPose, IsUncertainForASmallSingleTag) {
     std::mt19937_64 random(3);
     const std::vector<PropTag> tags{{7, 0.03, {}}};
     int wrong = 0;
@@ -104,7 +104,7 @@ TEST(TagPose, ASmallSingleTagIsNeverWrongAndSure) {
     EXPECT_GT(wrong, 5); // the ambiguity occurs
 }
 
-TEST(TagPose, ATagThatIsReadWrongIsLeftOut) {
+TEST(TagPose, LeavesOutMisreadTags) {
     std::mt19937_64 random(4);
     const geometry::RigidTransform truth = place(-0.1, 0.05, 20.0);
     std::vector<PropTag> tags = simulators::tags_of({});
@@ -125,7 +125,7 @@ TEST(TagPose, ATagThatIsReadWrongIsLeftOut) {
     }
 }
 
-TEST(TagPose, WhatIsNoPoseIsNone) {
+TEST(TagPose, GivesNoPoseForInvalidCorners) {
     std::mt19937_64 random(5);
     const std::vector<PropTag> tags = simulators::tags_of({});
     EXPECT_FALSE(pose_from_tags({}, tags, camera, corner_sd_px));
@@ -171,7 +171,7 @@ std::vector<FoundTag> rolled_corners(const std::vector<PropTag>& tags, double fi
     return found;
 }
 
-TEST(TagPose, ARollingShutterIsTakenOutByThePoseBefore) {
+TEST(TagPose, CorrectsARollingShutterByThePreviousPose) {
     const std::vector<PropTag> tags = simulators::tags_of({});
     const std::vector<FoundTag> found = rolled_corners(tags, 0.0);
     const auto skewed = pose_from_tags(found, tags, camera, corner_sd_px, {readout_s, {}, 0.0});
@@ -186,7 +186,7 @@ TEST(TagPose, ARollingShutterIsTakenOutByThePoseBefore) {
 }
 
 /// The first pose is skewed, because the motion is unknown; each later pose improves the estimate.
-TEST(TagPose, AfterAFewFramesNothingIsLeftOfTheRolling) {
+TEST(TagPose, ConvergesUnderARollingShutter) {
     const std::vector<PropTag> tags = simulators::tags_of({});
     RollingShutter shutter{readout_s, {}, 0.0};
     double off_m = 1.0;
@@ -202,7 +202,7 @@ TEST(TagPose, AfterAFewFramesNothingIsLeftOfTheRolling) {
 }
 
 /// With a global shutter the previous pose has no influence.
-TEST(TagPose, AGlobalShutterNeedsNoPoseBefore) {
+TEST(TagPose, IgnoresThePreviousPoseWithAGlobalShutter) {
     std::mt19937_64 random(4);
     const std::vector<PropTag> tags = simulators::tags_of({});
     const auto found = corners_of(tags, place(0.05, 0.02, 30.0), corner_sd_px, random);

@@ -49,7 +49,7 @@ TEST(TagReader, AFrameGivesThePoseOnTheTable) {
 
 /// A tag in the air above the prop, as on a lamp that points at it: the lamp's pose comes from the same frame, and the prop's
 /// is as without it.
-TEST(TagReader, ALampsTagGivesTheLampsPose) {
+TEST(TagReader, GivesThePoseOfALamp) {
     constexpr int id = 586;
     const geometry::RigidTransform torch_from_tag{
         tracking::rotation_of({0.5 * 3.14159265358979323846, 0.0, 0.0}), {0.0, -0.03, -0.05}};
@@ -83,7 +83,7 @@ TEST(TagReader, ALampsTagGivesTheLampsPose) {
 /// Slid at 0.3 m/s in front of a shutter that takes 25 ms from the first row to the last: after four frames
 /// each pose is the prop's at the pose's time, which is the time of its tags' rows. The frame's time is its
 /// middle row's.
-TEST(TagReader, WhatARollingShutterSkewsIsTakenOut) {
+TEST(TagReader, CorrectsTheSkewOfARollingShutter) {
     const auto prop = [](double t_s) {
         return geometry::RigidTransform{standing.rotation,
                                         standing.translation + glm::dvec3(0.3 * t_s, 0.0, 0.0)};
@@ -152,7 +152,7 @@ TEST(TagReader, SearchesTheWholePictureWhileThatIsCheap) {
 
 /// Tags of 18 pixels, on a processor that takes 13 ms for a whole picture: at half size none is found, so
 /// only two frames in 202 may be lost, not a hundred in 101.
-TEST(TagReader, TagsThatAreFoundInTheWholePictureAloneAreNotLostWhereItTakesLong) {
+TEST(TagReader, KeepsFullSizeWhenHalfSizeFindsNoTags) {
     simulators::SceneCamera small = above();
     small.pinhole = small.pinhole.scaled_to(640, 360);
     const simulators::TagScene scene(geometry::make_frustum(geometry::shipped_frustum),
@@ -174,7 +174,7 @@ TEST(TagReader, TagsThatAreFoundInTheWholePictureAloneAreNotLostWhereItTakesLong
     EXPECT_EQ(reader.counts().posed, 200U);
 }
 
-TEST(TagReader, AFrameOfAnotherShapeGivesNone) {
+TEST(TagReader, RejectsFramesOfAnotherAspectRatio) {
     TagReader reader(set_up());
     camera::CameraFrame frame = frame_at(milliseconds(1));
     frame.width = 960;
@@ -183,7 +183,7 @@ TEST(TagReader, AFrameOfAnotherShapeGivesNone) {
     EXPECT_EQ(reader.counts().misshapen, 1U);
 }
 
-TEST(TagTracker, PosesComeFromTheCamerasThread) {
+TEST(TagTracker, PassesPosesFromTheCameraThread) {
     TagTracker tracker(set_up());
     std::jthread([&tracker] {
         for (int k = 1; k <= 3; ++k) {
@@ -198,7 +198,7 @@ TEST(TagTracker, PosesComeFromTheCamerasThread) {
     EXPECT_EQ(tracker.trouble(), "");
 }
 
-TEST(TagSettings, PlaceATagAsASkirtDoes) {
+TEST(TagSettings, PlaceTagsLikeTheSkirt) {
     for (const double slope : {0.0, 35.0}) {
         for (const PropTag& tag : simulators::tags_of({.slope_deg = slope})) {
             const int side = tag.id / 2;
@@ -217,7 +217,7 @@ TEST(TagSettings, PlaceATagAsASkirtDoes) {
 }
 
 /// The example that the page gives to technicians is accepted and equals the measured skirt.
-TEST(TagSettings, ThePagesExampleIsTheSkirt) {
+TEST(TagSettings, ExampleOfThePageEqualsTheSkirt) {
     const std::string page = text_of(source_dir() + "/docs/tags.md");
     const std::size_t begin = page.find("```toml\n") + 8;
     const Result<settings::CheckedSettings> settings =

@@ -16,13 +16,13 @@ std::string refusal(std::string_view text) {
 
 } // namespace
 
-TEST(CheckText, text_of_every_script_is_taken) {
+TEST(CheckText, accepts_text_of_every_script) {
     EXPECT_EQ(refusal("Ἀθήνησιν, حرّك, ब्लॉक, โต๊ะ, 回 and \xf0\xa0\x9c\x8e\nsecond line"), "");
     EXPECT_EQ(refusal(""), "");
     EXPECT_EQ(refusal("\xe2\x80\x8f\xe2\x81\xa7isolated\xe2\x81\xa9 soft\xc2\xadhyphen"), "");
 }
 
-TEST(CheckText, what_is_not_utf8_is_named_with_its_place) {
+TEST(CheckText, names_the_place_of_invalid_utf8) {
     EXPECT_TRUE(test::tells(refusal("ab\nc\xff"), {"line 2, letter 2: byte 0xff", "[text.not_utf8]"}));
     EXPECT_TRUE(test::tells(refusal("\xed\xa0\x80"), {"line 1, letter 1: byte 0xed", "[text.not_utf8]"}));
     EXPECT_TRUE(test::tells(refusal("\xc0\xaf"), {"line 1, letter 1: byte 0xc0", "[text.not_utf8]"}));
@@ -36,7 +36,7 @@ TEST(CheckText, control_characters_are_refused) {
         test::tells(refusal(std::string_view("a\0b", 3)), {"line 1, letter 2: U+0000", "[text.letter]"}));
 }
 
-TEST(CheckText, what_overrides_the_order_of_letters_is_refused) {
+TEST(CheckText, rejects_bidirectional_overrides) {
     for (const char* text :
          {"\xe2\x80\xaa", "\xe2\x80\xab", "\xe2\x80\xac", "\xe2\x80\xad", "\xe2\x80\xae"}) {
         EXPECT_NE(refusal(text).find("overrides the order"), std::string::npos);
@@ -44,12 +44,12 @@ TEST(CheckText, what_overrides_the_order_of_letters_is_refused) {
     EXPECT_EQ(refusal("x\xe2\x80\xaey").substr(0, 31), "line 1, letter 2: U+202E overri");
 }
 
-TEST(CheckText, four_megabytes_and_ten_thousand_lines_are_refused) {
+TEST(CheckText, rejects_four_megabytes_and_ten_thousand_lines) {
     EXPECT_TRUE(test::tells(refusal(std::string(4U << 20, 'a')), {"4194304", "100000", "[text.too_long]"}));
     EXPECT_TRUE(test::tells(refusal(std::string(10000, '\n')), {"10001", "200", "[text.too_many_lines]"}));
 }
 
-TEST(CheckText, letters_are_named_as_unicode_does) {
+TEST(CheckText, names_letters_by_code_point) {
     EXPECT_EQ(named_letter(U'A'), "'A' (U+0041)");
     EXPECT_EQ(named_letter(code_point_of("é")), "'é' (U+00E9)");
     EXPECT_EQ(named_letter(code_point_of("回")), "'回' (U+56DE)");

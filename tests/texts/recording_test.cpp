@@ -50,7 +50,7 @@ double middle_level_db(const std::vector<float>& samples) {
 
 } // namespace
 
-TEST(Recording, a_wav_file_comes_back_sample_by_sample) {
+TEST(Recording, reads_the_samples_of_a_wav_file) {
     const std::vector<double> samples = sine(0.5, 0.2);
     const Result<Recording> recording = read_recording(wav16(samples), RecordingSource::File);
     ASSERT_TRUE(recording) << recording.error().message;
@@ -73,14 +73,14 @@ TEST(Recording, two_channels_are_averaged) {
     EXPECT_EQ(recording->samples, std::vector<float>(100, 0.125F));
 }
 
-TEST(Recording, what_is_none_is_refused_in_a_sentence) {
+TEST(Recording, rejects_data_that_is_no_recording) {
     EXPECT_TRUE(contains(refusal({}), "[recording.unreadable]"));
     const std::string text = "The white block is found.";
     const std::span<const std::byte> as = as_bytes(text);
     EXPECT_TRUE(contains(refusal({as.begin(), as.end()}), "[recording.unreadable]"));
 }
 
-TEST(Recording, rates_and_channels_that_no_speech_has_are_refused) {
+TEST(Recording, rejects_unsupported_rates_and_channel_counts) {
     const Bytes sound(19200, std::byte{1});
     WavHeader header;
     for (const std::uint32_t rate_hz : {0U, 1U, 4000U, 192000U, 0xffffffffU}) {
@@ -96,7 +96,7 @@ TEST(Recording, rates_and_channels_that_no_speech_has_are_refused) {
     EXPECT_FALSE(refusal(wav(header, sound)).empty());
 }
 
-TEST(Recording, a_file_that_claims_more_than_it_has_is_cut_off) {
+TEST(Recording, rejects_a_truncated_file_but_not_a_stream) {
     WavHeader header;
     header.claimed_bytes = 0xfffffff0U;
     const Bytes bomb = wav(header, Bytes(1000, std::byte{1}));
@@ -107,7 +107,7 @@ TEST(Recording, a_file_that_claims_more_than_it_has_is_cut_off) {
     EXPECT_EQ(stream->samples.size(), 500U);
 }
 
-TEST(Recording, without_sound_with_too_much_or_with_no_numbers_it_is_refused) {
+TEST(Recording, rejects_empty_too_long_and_non_finite_sound) {
     EXPECT_TRUE(test::tells(refusal(wav({}, {})), {"[recording.empty]"}));
     WavHeader slow;
     slow.rate_hz = 8000;
@@ -125,7 +125,7 @@ TEST(Recording, without_sound_with_too_much_or_with_no_numbers_it_is_refused) {
 
 // ITU-R BS.1770-4, annex 1: a sine of 997 Hz at full scale in one channel has -3.01 LUFS, so one of -23 LUFS has an amplitude
 // of -19.99 dB and a root mean square of -23.0 dB.
-TEST(LevelSpeech, a_sine_of_any_level_comes_out_at_minus_23_lufs) {
+TEST(LevelSpeech, levels_a_sine_to_minus_23_lufs) {
     for (const double amplitude : {0.003, 0.05, 0.9}) {
         const std::optional<Speech> speech = speech_of(sine(amplitude, 3.0));
         ASSERT_TRUE(speech);
@@ -134,7 +134,7 @@ TEST(LevelSpeech, a_sine_of_any_level_comes_out_at_minus_23_lufs) {
     }
 }
 
-TEST(LevelSpeech, the_meter_reads_what_bs_1770_says_of_a_sine) {
+TEST(LevelSpeech, meter_matches_bs_1770_for_a_sine) {
     std::vector<float> samples;
     for (const double sample : sine(1.0, 5.0)) {
         samples.push_back(static_cast<float>(sample));
@@ -185,7 +185,7 @@ TEST(LevelSpeech, peaks_stay_below_minus_2_db) {
 }
 
 /// Speech at a level of -40 dB with one knock on the microphone, at full scale.
-TEST(LevelSpeech, one_knock_does_not_make_the_rest_quiet) {
+TEST(LevelSpeech, one_knock_does_not_attenuate_the_rest) {
     std::vector<double> samples = sine(0.01, 5.0);
     for (std::size_t k = 0; k < 96; ++k) {
         samples[120000 + k] = k % 8 < 4 ? 0.99 : -0.99;
@@ -199,7 +199,7 @@ TEST(LevelSpeech, one_knock_does_not_make_the_rest_quiet) {
     EXPECT_NEAR(speech->loudness.lufs, -23.0, 0.5);
 }
 
-TEST(LevelSpeech, only_the_neighbourhood_of_peaks_is_lowered) {
+TEST(LevelSpeech, limiter_lowers_only_the_neighbourhood_of_peaks) {
     std::vector<float> samples(48000, 0.25F);
     samples[20000] = -1.0F;
     const std::vector<float> limited = limit_peaks(samples, 48000, 0.5F);
@@ -217,7 +217,7 @@ TEST(LevelSpeech, only_the_neighbourhood_of_peaks_is_lowered) {
     EXPECT_NEAR(limited[20000], -0.5F, 1e-4);
 }
 
-TEST(LevelSpeech, silence_and_a_sound_shorter_than_the_meters_block) {
+TEST(LevelSpeech, skips_silence_and_levels_very_short_sounds) {
     EXPECT_FALSE(speech_of(std::vector<double>(48000, 0.00001)));
     const std::optional<Speech> brief = speech_of(sine(0.3, 0.2));
     ASSERT_TRUE(brief);

@@ -56,7 +56,7 @@ bool has_note(const SetArtifact& set, std::string_view words) {
 
 } // namespace
 
-TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
+TEST_F(SetArtifactTexts, sets_all_texts_of_each_language) {
     if (!has("de")) {
         return;
     }
@@ -78,7 +78,7 @@ TEST_F(SetArtifactTexts, all_that_is_said_in_a_language_is_set_in_it) {
     EXPECT_EQ(made.languages[0].runs.find("title")->settings.size(), 1U) << "one line is one setting";
 }
 
-TEST_F(SetArtifactTexts, titles_of_behaviours_are_set_in_every_language) {
+TEST_F(SetArtifactTexts, sets_behaviour_titles_in_every_language) {
     std::vector<pack::PackCaption> captions;
     std::vector<pack::PackLabel> titles;
     for (const Sample& sample : samples) {
@@ -112,7 +112,7 @@ TEST_F(SetArtifactTexts, titles_of_behaviours_are_set_in_every_language) {
     }
 }
 
-TEST_F(SetArtifactTexts, captions_are_as_wide_as_the_kiosks_and_no_wider) {
+TEST_F(SetArtifactTexts, captions_fill_the_kiosks_widths) {
     for (const Sample& sample : samples) {
         if (!has(sample.language)) {
             continue;
@@ -143,7 +143,7 @@ TEST_F(SetArtifactTexts, captions_are_as_wide_as_the_kiosks_and_no_wider) {
     }
 }
 
-TEST_F(SetArtifactTexts, what_cannot_be_set_is_said_and_the_rest_is_set) {
+TEST_F(SetArtifactTexts, notes_unsettable_texts_and_sets_the_rest) {
     if (!has("de")) {
         return;
     }
@@ -162,7 +162,7 @@ TEST_F(SetArtifactTexts, what_cannot_be_set_is_said_and_the_rest_is_set) {
     EXPECT_EQ(made.notes.size(), 2U);
 }
 
-TEST_F(SetArtifactTexts, a_caption_that_is_too_high_for_a_table_is_said) {
+TEST_F(SetArtifactTexts, notes_a_caption_too_high_for_a_table) {
     if (!has("en")) {
         return;
     }

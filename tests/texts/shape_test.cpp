@@ -47,7 +47,7 @@ std::vector<HbGlyph> by_harfbuzz(const FontFace& from, const std::string& text, 
 
 } // namespace
 
-TEST_F(Shaping, one_word_of_each_script_is_shaped_as_harfbuzz_does) {
+TEST_F(Shaping, glyphs_match_harfbuzz_in_each_script) {
     const std::array<Sample, 9> words{{{"en", "affine"},
                                        {"de", "Fläche"},
                                        {"el", "Ἀθήνησιν"},
@@ -75,7 +75,7 @@ TEST_F(Shaping, one_word_of_each_script_is_shaped_as_harfbuzz_does) {
     }
 }
 
-TEST_F(Shaping, lines_of_right_to_left_scripts_begin_at_the_right) {
+TEST_F(Shaping, right_to_left_lines_begin_at_the_right) {
     for (const char* language : {"ar", "he"}) {
         if (!has(language)) {
             continue;
@@ -100,7 +100,7 @@ TEST_F(Shaping, lines_of_right_to_left_scripts_begin_at_the_right) {
     }
 }
 
-TEST_F(Shaping, latin_letters_in_hebrew_keep_their_order) {
+TEST_F(Shaping, latin_letters_in_hebrew_keep_left_to_right_order) {
     if (!has("he")) {
         return;
     }
@@ -147,7 +147,7 @@ TEST_F(Shaping, a_japanese_line_does_not_begin_with_a_full_stop) {
     EXPECT_EQ(shaped->settings[0].lines[1].glyphs, 2U);
 }
 
-TEST_F(Shaping, a_han_letter_is_drawn_as_its_country_writes_it) {
+TEST_F(Shaping, han_glyphs_depend_on_the_language) {
     if (!has("ja") || !has("zh")) {
         return;
     }
@@ -175,7 +175,7 @@ TEST_F(Shaping, every_width_has_lines_that_fit_it) {
     }
 }
 
-TEST_F(Shaping, bold_is_another_typeface) {
+TEST_F(Shaping, bold_uses_the_bold_typeface) {
     const Result<ShapedText> plain = shape("en", "Amphora");
     const Result<ShapedText> bold = shape("en", "Amphora", 200, true);
     ASSERT_TRUE(plain && bold);
@@ -183,7 +183,7 @@ TEST_F(Shaping, bold_is_another_typeface) {
     EXPECT_NE(bold->faces[0].file.string().find("Bold"), std::string::npos);
 }
 
-TEST_F(Shaping, a_letter_that_no_typeface_has_is_named) {
+TEST_F(Shaping, names_a_letter_missing_from_all_typefaces) {
     const Result<ShapedText> shaped = shape("en", "one \xf0\x9f\x98\x80 two \xef\xbf\xbe");
     ASSERT_TRUE(shaped) << shaped.error().message;
     ASSERT_FALSE(shaped->notes.empty());
@@ -194,7 +194,7 @@ TEST_F(Shaping, a_letter_that_no_typeface_has_is_named) {
     EXPECT_TRUE(named) << shaped->notes[0];
 }
 
-TEST_F(Shaping, a_word_that_fits_nowhere_is_named_and_broken) {
+TEST_F(Shaping, breaks_and_notes_a_word_wider_than_all_widths) {
     const Result<ShapedText> shaped = shaper->shape(
         {"Donaudampfschifffahrtsgesellschaft", "de", {9 * pack::em_units, 5 * pack::em_units}, false});
     ASSERT_TRUE(shaped) << shaped.error().message;
@@ -219,7 +219,7 @@ TEST_F(Shaping, bad_texts_and_widths_are_refused) {
         << high.error().message;
 }
 
-TEST_F(Shaping, glyph_runs_of_all_scripts_come_back_from_their_bytes) {
+TEST_F(Shaping, glyph_runs_of_all_scripts_round_trip) {
     GlyphAtlasBuilder builder;
     for (const Sample& sample : samples) {
         if (has(sample.language)) {

@@ -141,7 +141,7 @@ protected:
 
 } // namespace
 
-TEST_F(Sharpness, letters_are_those_that_freetype_draws) {
+TEST_F(Sharpness, letters_match_freetype_coverage) {
     for (const Sample& sample : samples) {
         if (!has(sample.language)) {
             continue;
@@ -182,7 +182,7 @@ TEST_F(Sharpness, DISABLED_figures) {
     write_figures("texts.csv", csv);
 }
 
-TEST_F(Sharpness, DISABLED_bytes_of_words_beside_pictures_of_them_figures) {
+TEST_F(Sharpness, DISABLED_atlas_bytes_against_picture_bytes_figures) {
     for (const std::string& language : builtin_word_languages()) {
         const Result<std::vector<CollectedWords>> collected =
             collect_words({}, std::vector<std::string>{language});

@@ -33,7 +33,7 @@ protected:
 
 } // namespace
 
-TEST_F(SpeakArtifact, a_named_recording_goes_before_the_folders_and_both_before_the_voice) {
+TEST_F(SpeakArtifact, prefers_named_recording_then_folder_then_voice) {
     SpeechSources sources;
     sources.recordings = {{"en", tone("mine.wav", 1.0)}};
     tone("recordings/en/description.wav", 2.0);
@@ -55,7 +55,7 @@ TEST_F(SpeakArtifact, a_named_recording_goes_before_the_folders_and_both_before_
     EXPECT_TRUE(spoken->notes[0].ends_with("mine.wav is used instead")) << spoken->notes[0];
 }
 
-TEST_F(SpeakArtifact, a_description_that_has_no_words_is_silent_and_a_silent_recording_is_refused) {
+TEST_F(SpeakArtifact, skips_a_wordless_description_and_rejects_a_silent_recording) {
     ASSERT_TRUE(write_file(folder / "silence.wav", wav16(std::vector<double>(9600, 0.0))));
     SpeechSources sources;
     sources.voice = Voice("cat " + (folder / "silence.wav").string());
@@ -72,7 +72,7 @@ TEST_F(SpeakArtifact, a_description_that_has_no_words_is_silent_and_a_silent_rec
         refused.error().message.ends_with("silence.wav: the recording is silent; record it again, louder"));
 }
 
-TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
+TEST_F(SpeakArtifact, reports_silent_descriptions_and_unused_recordings) {
     SpeechSources sources;
     sources.folder = folder / "recordings";
     tone("recordings/de/description.wav", 1.0);
@@ -91,7 +91,7 @@ TEST_F(SpeakArtifact, what_is_silent_and_what_is_left_out_is_said) {
         << spoken->notes.front();
 }
 
-TEST_F(SpeakArtifact, a_recording_that_is_much_too_short_or_long_for_its_words_is_told) {
+TEST_F(SpeakArtifact, notes_a_recording_whose_length_does_not_match_its_text) {
     SpeechSources sources;
     sources.folder = folder / "recordings";
     tone("recordings/en/description.wav", 1.0);
@@ -114,7 +114,7 @@ TEST_F(SpeakArtifact, a_recording_that_is_much_too_short_or_long_for_its_words_i
         << spoken->notes[1];
 }
 
-TEST_F(SpeakArtifact, a_recording_that_nobody_hears_is_told_with_the_nearest_name) {
+TEST_F(SpeakArtifact, notes_an_unused_recording_with_the_nearest_name) {
     SpeechSources sources;
     sources.folder = folder / "recordings";
     sources.left_out = {"it"};
@@ -139,7 +139,7 @@ TEST_F(SpeakArtifact, a_recording_that_nobody_hears_is_told_with_the_nearest_nam
                                               "fr/description.opus" + unknown + "de/description.opus"}));
 }
 
-TEST_F(SpeakArtifact, a_recording_is_heard_in_whatever_case_its_names_are) {
+TEST_F(SpeakArtifact, matches_recording_names_case_insensitively) {
     SpeechSources sources;
     sources.folder = folder / "Recordings";
     sources.left_out = {"it"};
@@ -157,7 +157,7 @@ TEST_F(SpeakArtifact, a_recording_is_heard_in_whatever_case_its_names_are) {
     EXPECT_TRUE(spoken->notes[0].ends_with("EN/Description.WAV is used instead")) << spoken->notes[0];
 }
 
-TEST_F(SpeakArtifact, a_bad_recording_and_a_bad_voice_end_it_in_a_sentence) {
+TEST_F(SpeakArtifact, fails_on_an_unreadable_recording_or_a_failing_voice) {
     SpeechSources sources;
     put("noise.wav", "this is no recording");
     sources.recordings = {{"en", folder / "noise.wav"}};

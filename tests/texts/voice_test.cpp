@@ -48,7 +48,7 @@ bool has_espeak() {
 
 } // namespace
 
-TEST_F(Voices, a_program_gets_the_text_and_the_language_and_its_wav_becomes_speech) {
+TEST_F(Voices, passes_text_and_language_and_reads_the_wav) {
     const Voice voice(program("cat >heard.txt; echo \"$1 $2\" >arguments.txt; cat good.wav") +
                       " --voice {language}");
     const Result<Spoken> spoken = voice.speak("Größe: 回", "de-CH");
@@ -63,13 +63,13 @@ TEST_F(Voices, a_program_need_not_read_its_text) {
     EXPECT_TRUE(spoken && spoken->speech) << (spoken ? spoken->why_silent : spoken.error().message);
 }
 
-TEST_F(Voices, one_that_hangs_is_ended) {
+TEST_F(Voices, kills_a_program_that_hangs) {
     EXPECT_TRUE(contains(refusal("sleep 1000", {300ms, 1000}),
                          "voice.sh: takes longer than 0.3 s for one text; it was ended"));
     EXPECT_TRUE(contains(refusal("exec >&-; sleep 1000", {300ms, 1000}), "takes longer than 0.3 s"));
 }
 
-TEST_F(Voices, what_it_started_ends_with_it) {
+TEST_F(Voices, kills_the_children_of_a_killed_program) {
     const std::string message = refusal("sleep 1000 & echo $! >child.txt; cat /dev/zero", {60'000ms, 1000});
     EXPECT_TRUE(contains(message, "writes more than")) << message;
     const std::string child = text("child.txt");
@@ -85,12 +85,12 @@ TEST_F(Voices, what_it_started_ends_with_it) {
     EXPECT_TRUE(ends) << "process " << child << " still runs";
 }
 
-TEST_F(Voices, one_that_writes_without_end_is_ended) {
+TEST_F(Voices, kills_a_program_that_writes_too_much) {
     EXPECT_TRUE(contains(refusal("cat /dev/zero", {30000ms, 100000}),
                          "writes more than 100000 bytes for one text; it was ended"));
 }
 
-TEST_F(Voices, what_one_complains_of_without_end_is_kept_nowhere) {
+TEST_F(Voices, discards_endless_standard_error) {
     const std::string complaints = "echo 'no such voice' >&2; head -c 20000000 /dev/zero >&2; ";
     EXPECT_TRUE(contains(refusal(complaints + "stat -L -c %s /proc/self/fd/2 >size.txt; exit 3"),
                          "voice.sh: ends with status 3: no such voice"));
@@ -100,7 +100,7 @@ TEST_F(Voices, what_one_complains_of_without_end_is_kept_nowhere) {
     EXPECT_TRUE(contains(refusal("exec >&-; head -c 20000000 /dev/zero >&2; exit 4"), "ends with status 4"));
 }
 
-TEST_F(Voices, rubbish_and_nothing_are_refused_and_silence_is_told) {
+TEST_F(Voices, rejects_unreadable_output_and_reports_silence) {
     EXPECT_TRUE(contains(refusal("echo hello"), "on 'A text.': this recording cannot be read"));
     EXPECT_TRUE(contains(refusal("true"), "on 'A text.': this recording cannot be read"));
     ASSERT_TRUE(write_file(folder / "silent.wav", wav16(std::vector<double>(9600, 0.0))));
@@ -109,7 +109,7 @@ TEST_F(Voices, rubbish_and_nothing_are_refused_and_silence_is_told) {
     EXPECT_TRUE(contains(refusal("cat empty.wav"), "voice.sh finds nothing to speak in 'A text.'"));
 }
 
-TEST_F(Voices, one_that_fails_is_quoted) {
+TEST_F(Voices, error_quotes_status_and_standard_error) {
     const std::string message = refusal("echo 'no such voice' >&2; exit 3");
     EXPECT_TRUE(contains(message, "voice.sh: ends with status 3: no such voice")) << message;
     EXPECT_TRUE(contains(refusal("kill -SEGV $$"), "ends with signal 11"));
@@ -120,7 +120,7 @@ TEST_F(Voices, one_that_fails_is_quoted) {
         "/nowhere/voice: cannot be started: No such file or directory; install it, or name another program");
 }
 
-TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_silent) {
+TEST_F(Voices, uses_recordings_without_a_voice_and_reports_silent_words) {
     std::filesystem::create_directories(folder / "de");
     std::filesystem::copy(folder / "good.wav", folder / "de" / "help.wav");
     std::vector<pack::LanguageWords> languages(1);
@@ -135,7 +135,7 @@ TEST_F(Voices, a_recording_comes_before_the_voice_and_the_rest_is_said_to_be_sil
               "1 of 2 words in 'de' are silent, but they are shown: there are no recordings and no voice");
 }
 
-TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
+TEST_F(Voices, stops_after_a_failure) {
     const Voice voice(program("echo word >>tried.txt; exit 1"));
     std::vector<pack::LanguageWords> languages(1);
     languages[0].language = "de";
@@ -148,7 +148,7 @@ TEST_F(Voices, one_that_fails_is_not_tried_with_every_word) {
               2 * std::thread::hardware_concurrency() + 2);
 }
 
-TEST_F(Voices, a_bad_recording_is_named) {
+TEST_F(Voices, names_an_unreadable_recording) {
     std::filesystem::create_directories(folder / "de");
     put("de/help.wav", "no sound");
     std::vector<pack::LanguageWords> languages(1);
@@ -161,7 +161,7 @@ TEST_F(Voices, a_bad_recording_is_named) {
         << silent.error().message;
 }
 
-TEST(Espeak, it_speaks_what_it_knows_all_sounds_of) {
+TEST(Espeak, speaks_only_languages_with_known_pronunciation) {
     if (!has_espeak()) {
         GTEST_SKIP() << "espeak-ng is not installed";
     }
@@ -182,7 +182,7 @@ TEST(Espeak, it_speaks_what_it_knows_all_sounds_of) {
     EXPECT_TRUE(espeak.why_silent("text", "tlh-XX-none")) << "there is no such voice";
 }
 
-TEST(Espeak, foreign_words_are_spoken_where_it_can_read_them_and_named_where_not) {
+TEST(Espeak, speaks_readable_foreign_words_and_names_unreadable_ones) {
     if (!has_espeak()) {
         GTEST_SKIP() << "espeak-ng is not installed";
     }
@@ -218,7 +218,7 @@ TEST(Espeak, foreign_words_are_spoken_where_it_can_read_them_and_named_where_not
               "the language 'fa' is written without its vowels, which espeak-ng cannot guess");
 }
 
-TEST(Espeak, a_sentence_comes_out_as_speech) {
+TEST(Espeak, speaks_a_sentence) {
     if (!has_espeak()) {
         GTEST_SKIP() << "espeak-ng is not installed";
     }

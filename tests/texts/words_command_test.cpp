@@ -43,7 +43,7 @@ protected:
 
 } // namespace
 
-TEST_F(WordsCommand, the_built_in_words_are_baked_and_drawn) {
+TEST_F(WordsCommand, bakes_and_previews_the_built_in_words) {
     ASSERT_EQ(
         run("frustumscreen-bake --words --languages de,fr -o out.fswords --preview words.png --speech none"),
         0)
@@ -58,7 +58,7 @@ TEST_F(WordsCommand, the_built_in_words_are_baked_and_drawn) {
     EXPECT_NE(text("err.txt").find("109 of 109 words in 'de' are silent"), std::string::npos);
 }
 
-TEST_F(WordsCommand, a_museums_words_recordings_and_voice_are_taken) {
+TEST_F(WordsCommand, uses_the_museums_words_and_voice) {
     std::filesystem::create_directories(folder / "mine" / "nl");
     std::ofstream(folder / "mine" / "nl.toml")
         << "name = \"Nederlands\"\nattract_line = \"Verschuif het blok.\"\n";
@@ -78,7 +78,7 @@ TEST_F(WordsCommand, a_museums_words_recordings_and_voice_are_taken) {
     EXPECT_NE(text("err.txt").find("the language 'nl' has no text for"), std::string::npos);
 }
 
-TEST_F(WordsCommand, strict_refuses_what_would_be_lost_and_writes_nothing) {
+TEST_F(WordsCommand, strict_fails_on_a_missing_letter_and_writes_nothing) {
     std::filesystem::create_directories(folder / "mine");
     std::ofstream(folder / "mine" / "de.toml") << "attract_line = \"\xf0\x9f\x98\x80\"\n";
     EXPECT_EQ(run("frustumscreen-bake --words mine --languages de -o out.fswords --strict --speech none"), 1);
@@ -88,14 +88,14 @@ TEST_F(WordsCommand, strict_refuses_what_would_be_lost_and_writes_nothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.fswords"));
 }
 
-TEST_F(WordsCommand, the_folder_may_stand_behind_an_equals_sign_and_its_files_are_utf8) {
+TEST_F(WordsCommand, accepts_an_equals_sign_and_rejects_files_that_are_not_utf8) {
     std::filesystem::create_directories(folder / "mine");
     std::ofstream(folder / "mine" / "de.toml") << "# Latin-1\nattract_line = \"Hilfe f\xfcr dich\"\n";
     EXPECT_EQ(run("frustumscreen-bake --words=mine --languages de -o out.fswords --speech none"), 1);
     EXPECT_TRUE(test::tells(text("err.txt"), {"frustumscreen-bake: mine/de.toml:2: ", "[toml.not_utf8]\n"}));
 }
 
-TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
+TEST_F(WordsCommand, notes_an_unused_recording_and_fails_if_strict) {
     for (const char* file : {"de/advice.lift.wav", "de/attract_line.wav", "fr/attract_line.wav"}) {
         std::filesystem::create_directories((folder / "mine" / file).parent_path());
         ASSERT_TRUE(write_file(folder / "mine" / file, wav16(sine(0.2, 0.4))));
@@ -111,7 +111,7 @@ TEST_F(WordsCommand, a_recording_that_no_word_takes_is_lost) {
     EXPECT_EQ(run(command + " --strict"), 1);
 }
 
-TEST_F(WordsCommand, only_words_are_replaced_by_words) {
+TEST_F(WordsCommand, does_not_overwrite_other_files_or_its_input) {
     std::filesystem::create_directories(folder / "mine" / "de");
     put("notes.txt", "what the curator wrote down");
     put("mine/de.toml", "attract_line = \"Hilfe\"");
@@ -136,7 +136,7 @@ TEST_F(WordsCommand, only_words_are_replaced_by_words) {
     EXPECT_EQ(run(command + "-o notes.txt --force"), 0) << text("err.txt");
 }
 
-TEST_F(WordsCommand, the_folders_own_languages_are_baked) {
+TEST_F(WordsCommand, bakes_the_languages_of_the_folder) {
     for (const std::string& language : builtin_word_languages()) {
         if (const Result<void> there = Fonts::open()->check(language); !there) {
             GTEST_SKIP() << there.error().message;
@@ -155,7 +155,7 @@ TEST_F(WordsCommand, the_folders_own_languages_are_baked) {
         << text("err.txt");
 }
 
-TEST_F(WordsCommand, a_voice_and_what_it_started_end_with_the_command) {
+TEST_F(WordsCommand, voice_processes_end_with_the_command) {
     put("voice.sh", "sleep 1000 & echo $$ $! >>voices.txt; wait");
     for (const char* signal : {"TERM", "KILL"}) {
         std::filesystem::remove(folder / "voices.txt");
@@ -173,7 +173,7 @@ TEST_F(WordsCommand, a_voice_and_what_it_started_end_with_the_command) {
     }
 }
 
-TEST_F(WordsCommand, what_is_wrong_is_said_in_one_line) {
+TEST_F(WordsCommand, reports_errors_with_their_place) {
     EXPECT_EQ(run("frustumscreen-bake --words nowhere -o out.fswords"), 1);
     EXPECT_TRUE(test::tells(text("err.txt"), {"frustumscreen-bake: nowhere: ", "[words.no_folder]\n"}));
     EXPECT_EQ(run("frustumscreen-bake --words --languages de -o out.fswords --speech 'sh -c false'"), 1);

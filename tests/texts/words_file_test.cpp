@@ -37,7 +37,7 @@ Bytes file_of_two() {
 
 } // namespace
 
-TEST(WordsFile, a_language_comes_back_as_it_was_written) {
+TEST(WordsFile, round_trip_of_a_language) {
     const Bytes file = file_of_two();
     const Result<pack::LanguageWords> back = pack::read_words(file, "fr");
     ASSERT_TRUE(back) << back.error().message;
@@ -49,7 +49,7 @@ TEST(WordsFile, a_language_comes_back_as_it_was_written) {
     EXPECT_EQ(back->sounds, expected.sounds);
 }
 
-TEST(WordsFile, the_same_words_give_the_same_bytes_at_any_time) {
+TEST(WordsFile, equal_words_give_equal_bytes_with_fixed_dates) {
     const Bytes file = file_of_two();
     EXPECT_EQ(file, file_of_two());
     const std::vector<std::uint32_t> dates = samples::zip_dates(file);
@@ -59,7 +59,7 @@ TEST(WordsFile, the_same_words_give_the_same_bytes_at_any_time) {
     }
 }
 
-TEST(WordsFile, it_lists_its_languages_with_that_of_the_house_first) {
+TEST(WordsFile, lists_languages_in_file_order) {
     const Result<std::vector<pack::WordsLanguage>> list = pack::list_words(file_of_two());
     ASSERT_TRUE(list) << list.error().message;
     ASSERT_EQ(list->size(), 2U);
@@ -69,13 +69,13 @@ TEST(WordsFile, it_lists_its_languages_with_that_of_the_house_first) {
     EXPECT_EQ((*list)[1].sounds, 1U);
 }
 
-TEST(WordsFile, a_language_that_is_not_there_is_named) {
+TEST(WordsFile, names_a_missing_language) {
     const Result<pack::LanguageWords> back = pack::read_words(file_of_two(), "nl");
     ASSERT_FALSE(back);
     EXPECT_EQ(back.error().message, "there are no words in the language 'nl'; bake them with --languages");
 }
 
-TEST(WordsFile, every_byte_that_is_changed_is_noticed_or_harmless) {
+TEST(WordsFile, changed_byte_is_rejected_or_harmless) {
     const Bytes good = file_of_two();
     const Result<pack::LanguageWords> expected = pack::read_words(good, "de");
     ASSERT_TRUE(expected);
@@ -100,7 +100,7 @@ TEST(WordsFile, a_file_cut_anywhere_is_refused) {
     }
 }
 
-TEST(WordsFile, another_format_is_told_apart) {
+TEST(WordsFile, rejects_another_format) {
     pack::ZipWriter zip;
     zip.add("manifest.json", as_bytes(R"({"format":"FrustumScreen pack","version":2})"),
             pack::Packing::Stored);

@@ -33,12 +33,12 @@ const Word& word_of(const CollectedWords& words, std::string_view key) {
 
 } // namespace
 
-TEST(BuiltinWords, eleven_languages_are_there) {
+TEST(BuiltinWords, has_eleven_languages) {
     EXPECT_EQ(builtin_word_languages(),
               (std::vector<std::string>{"ar", "de", "el", "en", "es", "fr", "he", "hi", "it", "ja", "zh"}));
 }
 
-TEST(BuiltinWords, every_language_has_every_word_and_no_other) {
+TEST(BuiltinWords, every_language_is_complete) {
     for (const BuiltinWords& file : builtin_words()) {
         const Result<WrittenWords> words = parse_words(file.toml, std::string(file.language) + ".toml");
         ASSERT_TRUE(words) << words.error().message;
@@ -49,7 +49,7 @@ TEST(BuiltinWords, every_language_has_every_word_and_no_other) {
     }
 }
 
-TEST(BuiltinWords, no_two_words_of_a_language_say_the_same) {
+TEST(BuiltinWords, no_two_words_of_a_language_are_equal) {
     for (const BuiltinWords& file : builtin_words()) {
         const Result<WrittenWords> words = parse_words(file.toml, std::string(file.language) + ".toml");
         ASSERT_TRUE(words) << words.error().message;
@@ -78,7 +78,7 @@ TEST(ParseWords, messages_name_file_line_and_key) {
     EXPECT_NE(refusal(std::string(9000, '.')), "");
 }
 
-TEST_F(WordsFolder, a_museums_own_lines_replace_the_built_in_ones) {
+TEST_F(WordsFolder, museum_lines_replace_built_in_lines) {
     put("de.toml", "attract_line = \"Kommen Sie näher.\"\n");
     const auto collected = collect({"en", "de"});
     ASSERT_TRUE(collected) << collected.error().message;
@@ -87,7 +87,7 @@ TEST_F(WordsFolder, a_museums_own_lines_replace_the_built_in_ones) {
     EXPECT_TRUE((*collected)[1].notes.empty());
 }
 
-TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so) {
+TEST_F(WordsFolder, missing_lines_fall_back_to_the_first_language_with_a_note) {
     put("nl.toml", "name = \"Nederlands\"\nattract_line = \"Verschuif het blok.\"\n");
     const auto collected = collect({"de", "nl"});
     ASSERT_TRUE(collected) << collected.error().message;
@@ -104,7 +104,7 @@ TEST_F(WordsFolder, a_missing_line_falls_back_to_the_houses_language_and_says_so
         "them into nl.toml");
 }
 
-TEST_F(WordsFolder, a_line_of_an_earlier_version_is_read_and_said_to_be_no_longer_shown) {
+TEST_F(WordsFolder, reads_obsolete_lines_with_a_note) {
     put("de.toml", "help = \"Hilfe\"\n[advice]\nlower = \"Tiefer.\"\n[fault]\nrepairing = \"Gleich.\"\n");
     const auto collected = collect({"de"});
     ASSERT_TRUE(collected) << collected.error().message;
@@ -127,7 +127,7 @@ TEST_F(WordsFolder, a_language_without_words_is_refused) {
               std::string::npos);
 }
 
-TEST_F(Shaping, every_built_in_word_is_set_whole_at_every_width) {
+TEST_F(Shaping, every_built_in_word_fits_every_caption_width) {
     for (const std::string& language : builtin_word_languages()) {
         if (!has(language)) {
             continue;

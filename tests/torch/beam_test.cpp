@@ -27,7 +27,7 @@ Beam beam_of(Attenuation attenuation, Shape shape = Shape::Round) {
     return beam;
 }
 
-TEST(Beam, IntensityFallsAsEachFunctionSays) {
+TEST(Beam, AttenuatesByEachFunction) {
     const Beam square = beam_of(Attenuation::InverseSquare);
     EXPECT_EQ(attenuation_at(square, 1.0), 0.25);
     EXPECT_EQ(attenuation_at(square, 4.0), 1.0 / 64.0);
@@ -43,7 +43,7 @@ TEST(Beam, IntensityFallsAsEachFunctionSays) {
     EXPECT_EQ(attenuation_at(none, 1e6), 1.0);
 }
 
-TEST(Beam, IsFullUpToItsFullDistanceAndNeverBrightensFromThereOn) {
+TEST(Beam, IsFullUpToItsFullDistanceAndThenNeverBrightens) {
     for (const Attenuation attenuation : all) {
         const Beam beam = beam_of(attenuation);
         for (const double distance_m : {0.0, 1e-300, 0.1, 0.5}) {
@@ -70,7 +70,7 @@ double found_reach(const Beam& beam) {
     return bright;
 }
 
-TEST(Beam, ReachesAsFarAsTheEyeSeesIt) {
+TEST(Beam, ReachIsWhereTheIntensityFallsToItsMinimum) {
     for (const auto& [full_m, dark_m] : {std::pair(0.5, 1.5), {0.3, 0.31}, {0.001, 40.0}, {2.0, 1000.0}}) {
         for (const Attenuation attenuation :
              {Attenuation::InverseSquare, Attenuation::Linear, Attenuation::SmoothStep}) {
@@ -107,7 +107,7 @@ geometry::Pinhole pinhole_of(const Beam& beam) {
     return {.width = 1, .height = 1, .fx = focal, .fy = focal / beam.height_per_width, .cx = 0.5, .cy = 0.5};
 }
 
-TEST(Beam, AContentLiesAsAPinholesPicture) {
+TEST(Beam, ProjectsItsContentLikeAPinhole) {
     std::mt19937 random(48);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     std::size_t inside = 0;
@@ -143,7 +143,7 @@ TEST(Beam, AContentLiesAsAPinholesPicture) {
     EXPECT_GT(outside, 2000U);
 }
 
-TEST(Beam, LightsNothingAtItsOriginBesideItBehindItAndWhereNumbersEnd) {
+TEST(Beam, LightsNothingAtOrBehindItsOriginOrAtNonFinitePoints) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const Attenuation attenuation : all) {
         for (const Shape shape : {Shape::Round, Shape::Rectangle}) {
@@ -161,7 +161,7 @@ TEST(Beam, LightsNothingAtItsOriginBesideItBehindItAndWhereNumbersEnd) {
     }
 }
 
-TEST(Beam, ItsEdgeIsItsOpening) {
+TEST(Beam, EdgeMatchesTheOpening) {
     Beam beam = beam_of(Attenuation::None, Shape::Rectangle);
     beam.opening_rad = std::numbers::pi / 2.0;
     beam.height_per_width = 0.5;

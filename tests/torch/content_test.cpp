@@ -19,7 +19,7 @@ glm::dvec2 in_stage(const StageAt& at, const glm::dvec2& content) {
     return at.stage_from_content * glm::vec3(glm::vec2(content), 1.0F);
 }
 
-TEST(Content, AStageThatDoesNotMoveIsTheContent) {
+TEST(Content, AStaticStageKeepsTheContent) {
     for (const Source source : sources) {
         for (const double seconds : {0.0, 0.3, 1e6}) {
             const StageAt at = stage_at({.source = source, .opacity = 0.75}, 0.6, seconds);
@@ -58,7 +58,7 @@ TEST(Content, TurnsClockwiseWithRightAngles) {
     }
 }
 
-TEST(Content, PulsesFromItsOpacityDownByItsDepth) {
+TEST(Content, PulsesBetweenItsOpacityAndItsDepth) {
     const Stage stage{.source = Source::Plain, .opacity = 0.8, .pulse_hz = 0.5, .pulse_depth = 0.25};
     EXPECT_FLOAT_EQ(stage_at(stage, 1.0, 0.0).opacity, 0.8F);
     EXPECT_FLOAT_EQ(stage_at(stage, 1.0, 0.5).opacity, 0.7F);
@@ -75,7 +75,7 @@ double apart(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& period)
 }
 
 /// A visitor's day: no frame jumps, and no digit is lost.
-TEST(Content, NothingJumpsForHours) {
+TEST(Content, MovesWithoutJumpsForHours) {
     const double step_s = 1e-3;
     for (const Source source : {Source::Picture, Source::Film, Source::Grid}) {
         const Stage stage{.source = source,
@@ -106,7 +106,7 @@ TEST(Content, NothingJumpsForHours) {
 }
 
 /// After whole periods of the scroll, the turn and the pulse a stage is as it began, hours later too.
-TEST(Content, IsAsItBeganAfterWholePeriods) {
+TEST(Content, RepeatsAfterWholePeriods) {
     const Stage stage{.source = Source::Picture,
                       .scroll_per_s = {0.25, 0.5},
                       .turn_rad_per_s = 2.0 * std::numbers::pi / 8.0,
@@ -120,7 +120,7 @@ TEST(Content, IsAsItBeganAfterWholePeriods) {
     }
 }
 
-TEST(Content, WhiteIsPlainLightOfOneStage) {
+TEST(Content, WhiteIsOneStageOfPlainLight) {
     const Content content = white();
     EXPECT_EQ(content.name, white_name);
     ASSERT_EQ(content.stages.size(), 1U);
@@ -129,7 +129,7 @@ TEST(Content, WhiteIsPlainLightOfOneStage) {
     EXPECT_FALSE(content.shape);
 }
 
-TEST(Content, EachNameIsOneThing) {
+TEST(Content, NamesMatchTheirEnumerators) {
     EXPECT_EQ(source_names.size(), std::set(source_names.begin(), source_names.end()).size());
     EXPECT_EQ(source_names[static_cast<std::size_t>(Source::Lens)], "lens");
     EXPECT_EQ(mix_names[static_cast<std::size_t>(Mix::Add)], "add");

@@ -116,7 +116,7 @@ TEST(ShadowMap, HasTheNearestTriangleOfEachPixel) {
     }
 }
 
-TEST(ShadowMap, CutsWhatReachesBehindTheTorchOrFarBesideIt) {
+TEST(ShadowMap, ClipsTrianglesBehindOrFarBesideTheTorch) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> place(-1.0F, 1.0F);
     for (const float far : {1.0F, 3000.0F}) {
@@ -193,7 +193,7 @@ TEST(ShadowMap, IsDarkWhereTheFirstSurfaceIsABack) {
 
 /// Each is no nearer than the farthest of the four, or of those that a place away from the farthest lies between, and no farther than
 /// that by more than a slack; as far as half of their range.
-TEST(ShadowMap, HasTheFarthestOfFourAndOfThree) {
+TEST(ShadowMap, FindsTheFarthestOfFourAndOfThree) {
     constexpr double slack = 0.001;
     Mesh mesh;
     mesh.add({-0.2F, -0.3F, 0.8F}, {0.3F, -0.1F, 1.1F}, {0.0F, 0.4F, 0.9F});
@@ -222,7 +222,7 @@ TEST(ShadowMap, HasTheFarthestOfFourAndOfThree) {
     EXPECT_GT(apart, 100);
 }
 
-TEST(ShadowMap, LeavesOutWhatIsNotFinite) {
+TEST(ShadowMap, IgnoresNonFiniteTrianglesAndTrianglesBehindIt) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinite = std::numeric_limits<float>::infinity();
     for (const float odd : {nan, infinite, -infinite}) {

@@ -32,7 +32,7 @@ TEST(ConvertRecording, ReadsCommasAndBlanksWithTheScalarLast) {
     }
 }
 
-TEST(ConvertRecording, DropsStepsThatDoNotGoForwardAndMendsSigns) {
+TEST(ConvertRecording, DropsRowsWithoutAscendingTimeAndFixesSigns) {
     const ConvertedRecording recording = converted("10.00 0 0 0 0 0 0 1\n"
                                                    "10.01 1 0 0 0 0 0 -1\n" // sign flipped
                                                    "10.01 2 0 0 0 0 0 -1\n" // time does not advance
@@ -50,7 +50,7 @@ TEST(ConvertRecording, DropsStepsThatDoNotGoForwardAndMendsSigns) {
     }
 }
 
-TEST(ConvertRecording, FlatKeepsTheTurnAboutZOfATiltedThing) {
+TEST(ConvertRecording, FlatKeepsTheRotationAboutZOfATiltedBody) {
     // A body tilted by 100 degrees about X that turns about the vertical and moves in a circle of 1 m.
     std::string text;
     const glm::dquat tilt = glm::angleAxis(glm::radians(100.0), glm::dvec3(1, 0, 0));
@@ -98,7 +98,7 @@ struct Recording {
     int dropped;
 };
 
-TEST(ConvertRecording, IsNoLongerThanAPoseFileMayBe) {
+TEST(ConvertRecording, RejectsATimeSpanBeyondThePoseFileLimit) {
     const auto result = convert_recording("-3e9 0 0 0 0 0 0 1\n3e9 0 0 0 0 0 0 1\n", "walk.txt", {});
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().message.rfind("walk.txt:2: t is ", 0), 0U) << result.error().message;

@@ -72,7 +72,7 @@ TEST(DeviceClock, AMillisecondTimestampIsFollowedToItsOwnResolution) {
     }
 }
 
-TEST(DeviceClock, TheSameTickIsTheSameTimeHoweverLateItComes) {
+TEST(DeviceClock, SameTickGivesTheSameTimeWhenItArrivesLate) {
     DeviceClock clock(1e6);
     const MonotonicTime start = from_microseconds(1'000'000);
     static_cast<void>(clock.time_of(10, start));
@@ -80,7 +80,7 @@ TEST(DeviceClock, TheSameTickIsTheSameTimeHoweverLateItComes) {
     EXPECT_EQ(clock.time_of(27, start + std::chrono::milliseconds(20)), time);
 }
 
-TEST(DeviceClock, FramesThatWereHeldBackAndComeAtOnceKeepTheirTimes) {
+TEST(DeviceClock, DelayedFramesKeepTheirTimes) {
     Simulation simulation;
     simulation.hiccups = false;
     DeviceClock clock(static_cast<double>(simulation.tick_ns));
@@ -99,7 +99,7 @@ TEST(DeviceClock, FramesThatWereHeldBackAndComeAtOnceKeepTheirTimes) {
     EXPECT_EQ(clock.restarts(), 0U);
 }
 
-TEST(DeviceClock, AClockThatJumpsIsBegunAgainAndTimeStillAscends) {
+TEST(DeviceClock, RestartsAfterAJumpAndTimeStaysMonotonic) {
     for (const std::int64_t jump : {-5000, 100'000}) {
         Simulation simulation;
         DeviceClock clock(static_cast<double>(simulation.tick_ns));
@@ -118,7 +118,7 @@ TEST(DeviceClock, AClockThatJumpsIsBegunAgainAndTimeStillAscends) {
     }
 }
 
-TEST(DeviceClock, AClockOfAnotherRateIsNotBelievedAndTheArrivalsAreUntilItIsRightAgain) {
+TEST(DeviceClock, UsesArrivalTimesWhileTheClockRateIsWrong) {
     for (const long double drift : {-0.5L, -0.05L, 0.05L, 1.0L, 3.0L}) {
         Simulation simulation;
         simulation.hiccups = false;
@@ -150,7 +150,7 @@ TEST(DeviceClock, AClockOfAnotherRateIsNotBelievedAndTheArrivalsAreUntilItIsRigh
     }
 }
 
-TEST(DeviceClock, ACounterThatStoodStillForAWhileIsBelievedAgainAfterASecond) {
+TEST(DeviceClock, RecoversAfterTheCounterStoodStill) {
     Simulation simulation;
     simulation.hiccups = false;
     DeviceClock clock(static_cast<double>(simulation.tick_ns));

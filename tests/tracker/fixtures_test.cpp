@@ -21,7 +21,7 @@ DeviceFrame viper_frame(const std::string& name) {
     return frame != nullptr ? *frame : DeviceFrame{};
 }
 
-TEST(ViperFixtures, PosesAreWhatTheHeaderSays) {
+TEST(ViperFixtures, PosesMatchTheHeader) {
     EXPECT_EQ(viper_frame("pose.none").count, 0U);
     const DeviceFrame one = viper_frame("pose.one");
     ASSERT_EQ(one.count, 1U);
@@ -45,13 +45,13 @@ TEST(ViperFixtures, PosesAreWhatTheHeaderSays) {
     }
 }
 
-TEST(ViperFixtures, AFaultOfTheSystemSaysNothingOfThePose) {
+TEST(ViperFixtures, SystemFaultLeavesThePoseUsable) {
     const DeviceFrame frame = viper_frame("pose.built_in_test");
     EXPECT_TRUE(frame.fault);
     EXPECT_TRUE(frame.sensors[0].usable);
 }
 
-TEST(ViperFixtures, WhatIsNoPoseInMetresIsNotUsable) {
+TEST(ViperFixtures, PosesInOtherUnitsAreNotUsable) {
     for (const std::string name : {"pose.centimetres", "pose.inches_degrees", "pose.acceleration"}) {
         const DeviceFrame frame = viper_frame(name);
         EXPECT_FALSE(frame.units_as_set) << name;
@@ -111,7 +111,7 @@ UsbTrackerState state_after(const Talk& talk, const std::vector<std::string>& fr
     return session.state(now);
 }
 
-TEST(ViperFixtures, ADeviceOfTheseBytesAloneIsSetUpAndStreams) {
+TEST(ViperFixtures, SetsUpAndStreams) {
     std::vector<PoseSample> samples;
     EXPECT_EQ(state_after(set_up, {"pose.none", "pose.one"}, samples), UsbTrackerState::Streaming);
     ASSERT_EQ(samples.size(), 1U);
@@ -120,7 +120,7 @@ TEST(ViperFixtures, ADeviceOfTheseBytesAloneIsSetUpAndStreams) {
     EXPECT_TRUE(samples[0].ok);
 }
 
-TEST(ViperFixtures, AWarningARefusedAnswerAndAFaultAreSaidAndPosesCome) {
+TEST(ViperFixtures, ReportsWarningsRefusalsAndFaultsAndStillStreams) {
     const std::vector<std::pair<Talk, UsbTrackerState>> cases{
         {changed(set_up, "host.hemisphere.set", "warning.hemisphere.set"), UsbTrackerState::SetUpDoubtful},
         {changed(set_up, "host.hemisphere.get", "nak.hemisphere"), UsbTrackerState::SetUpDoubtful},
@@ -139,7 +139,7 @@ TEST(ViperFixtures, AWarningARefusedAnswerAndAFaultAreSaidAndPosesCome) {
     EXPECT_TRUE(samples[0].ok);
 }
 
-TEST(ViperFixtures, WhatKeepsItFromItsSetUpIsSaid) {
+TEST(ViperFixtures, ReportsBootingAndAFailedSelfTestDuringSetUp) {
     const auto cut = [](const std::string& answer) {
         Talk talk(set_up.begin(), set_up.begin() + 3);
         talk.back().answer = answer;
@@ -150,7 +150,7 @@ TEST(ViperFixtures, WhatKeepsItFromItsSetUpIsSaid) {
     EXPECT_EQ(state_after(cut("nak.built_in_test"), {}, samples), UsbTrackerState::DeviceFault);
 }
 
-TEST(LibertyFixtures, FramesAreWhatTheHeaderSays) {
+TEST(LibertyFixtures, FramesMatchTheHeader) {
     struct Case {
         std::string name;
         int sensor;

@@ -129,7 +129,7 @@ TEST(HidTrackerCodec, EveryStatusBitMakesThePoseUnusable) {
     }
 }
 
-TEST(HidTrackerCodec, NumbersThatAreNoPoseAreMarked) {
+TEST(HidTrackerCodec, MarksInvalidPosesAndRejectsInvalidStations) {
     wire::HidPose far;
     far.position[2] = 1'100'000; // 11 m
     wire::HidPose still = {};
@@ -148,7 +148,7 @@ TEST(HidTrackerCodec, NumbersThatAreNoPoseAreMarked) {
     EXPECT_EQ(std::get<DiscardReason>(parse_hid_tracker(wire::hid_pose(strange))), DiscardReason::Content);
 }
 
-TEST(HidTrackerCodec, EveryChangedBitAndEveryOtherLengthIsRefused) {
+TEST(HidTrackerCodec, RejectsAnyChangedBitOrOtherLength) {
     for (const wire::Wire& good : {wire::hid_pose({}), wire::hid_info()}) {
         for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
             wire::Wire changed = good;
@@ -165,7 +165,7 @@ TEST(HidTrackerCodec, EveryChangedBitAndEveryOtherLengthIsRefused) {
     }
 }
 
-TEST(HidTrackerCodec, AnyBytesAreSafeAndGiveNoPoseThatIsNone) {
+TEST(HidTrackerCodec, MutatedReportsGiveOnlyValidPoses) {
     std::mt19937 engine(3);
     for (int round = 0; round < 20'000; ++round) {
         wire::Wire report = engine() % 2 == 0 ? wire::hid_pose({}) : wire::hid_info();
@@ -182,7 +182,7 @@ TEST(HidTrackerCodec, AnyBytesAreSafeAndGiveNoPoseThatIsNone) {
     }
 }
 
-TEST(HidIds, ATrackerIsKnownByItsUsageAndASpaceMouseByItsMaker) {
+TEST(HidIds, RecognizeTrackersByUsageAndSpaceMiceByVendor) {
     EXPECT_EQ(known_hid_tracker({0x1209, 0x0001, 0xFF46, 0x53}), UsbTrackerModel::Hid);
     EXPECT_EQ(known_hid_tracker({0x1209, 0x0001, 0xFF46, 0x54}), std::nullopt);
     EXPECT_EQ(known_hid_tracker({0x256f, 0xc635, 0x01, 0x08}), UsbTrackerModel::SpaceMouse);

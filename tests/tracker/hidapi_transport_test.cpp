@@ -111,7 +111,7 @@ wire::Wire pose(std::uint32_t counter) {
     return wire::hid_pose(sent);
 }
 
-TEST(HidapiTransport, AHidTrackerIsFoundByItsUsageAndComesBackAfterTheCable) {
+TEST(HidapiTransport, FindsATrackerByUsageAndReconnectsAfterUnplugging) {
     SimulatedClock time;
     UsbTrackerDriver driver(make_hid_bus(UsbTrackerModel::Hid), {}, time.clock());
     std::vector<PoseSample> samples;
@@ -145,7 +145,7 @@ TEST(HidapiTransport, AHidTrackerIsFoundByItsUsageAndComesBackAfterTheCable) {
     }
 }
 
-TEST(HidapiTransport, ADeviceWithoutItsFeatureReportIsNotTaken) {
+TEST(HidapiTransport, RejectsADeviceWithoutItsFeatureReport) {
     const PluggedDevice device("1209", "0001", tracker_descriptor(), {});
     UsbTrackerDriver driver(make_hid_bus(UsbTrackerModel::Hid), {}, monotonic_now);
     std::vector<PoseSample> samples;
@@ -154,7 +154,7 @@ TEST(HidapiTransport, ADeviceWithoutItsFeatureReportIsNotTaken) {
 }
 
 /// Runs in a child process as the user `nobody`, because root may open everything.
-TEST(HidapiTransport, ADeviceThatMayNotBeOpenedIsNamedAsSuch) {
+TEST(HidapiTransport, ReportsMissingPermission) {
     const PluggedDevice device("1209", "0001", tracker_descriptor(), wire::hid_info());
     device.forbid();
     const auto search = [] {
@@ -168,7 +168,7 @@ TEST(HidapiTransport, ADeviceThatMayNotBeOpenedIsNamedAsSuch) {
     EXPECT_EXIT(search(), ::testing::ExitedWithCode(static_cast<int>(UsbTrackerState::NoPermission)), "");
 }
 
-TEST(HidapiTransport, ASpaceMouseIsFoundAndNothingElseIs) {
+TEST(HidapiTransport, FindsASpaceMouseOnlyOnItsOwnBus) {
     const PluggedDevice device("256F", "C635", space_mouse_descriptor, {});
     EXPECT_EQ(make_hid_bus(UsbTrackerModel::Hid)->find({}).error(), UsbTrackerState::NotConnected);
     SimulatedClock time;
@@ -185,7 +185,7 @@ TEST(HidapiTransport, ASpaceMouseIsFoundAndNothingElseIs) {
     EXPECT_GT(samples.size(), 1U);
 }
 
-TEST(HidapiTransport, AnotherMakersDeviceIsNoSpaceMouse) {
+TEST(HidapiTransport, IgnoresASpaceMouseLookalikeOfAnotherVendor) {
     const PluggedDevice device("045E", "C635", space_mouse_descriptor, {});
     EXPECT_EQ(make_hid_bus(UsbTrackerModel::SpaceMouse)->find({}).error(), UsbTrackerState::NotConnected);
 }

@@ -69,7 +69,7 @@ private:
     UMockdevTestbed* testbed_;
 };
 
-TEST(LibusbTransport, NoTrackerIsNoFailureOfUsb) {
+TEST(LibusbTransport, ReportsNotConnectedWithoutATracker) {
     const UsbPorts ports;
     EXPECT_EQ(make_libusb_bus()->find({}).error(), UsbTrackerState::NotConnected);
 }
@@ -84,7 +84,7 @@ TEST(LibusbTransport, AViperIsFoundAndOpened) {
     EXPECT_EQ(found->place, "usb 1-3");
 }
 
-TEST(LibusbTransport, HostileDescriptorsAreThatOneDevicesAndTheNextIsTaken) {
+TEST(LibusbTransport, SkipsADeviceWithHostileDescriptors) {
     for (const std::string name : {"no-endpoints", "absurd-endpoints", "absurd-lengths"}) {
         UsbPorts ports;
         ports.plug(2, name);
@@ -99,13 +99,13 @@ TEST(LibusbTransport, HostileDescriptorsAreThatOneDevicesAndTheNextIsTaken) {
     }
 }
 
-TEST(LibusbTransport, ADeviceThatTheKernelCouldNotConfigureCannotBeOpened) {
+TEST(LibusbTransport, ReportsAnUnconfiguredDeviceAsNotOpenable) {
     UsbPorts ports;
     ports.plug(2, "good", "");
     EXPECT_EQ(make_libusb_bus()->find({}).error(), UsbTrackerState::CannotBeOpened);
 }
 
-TEST(LibusbTransport, AnErrorOfOneDeviceIsNoneOfUsb) {
+TEST(LibusbTransport, ReportsClaimErrorsAndRecovers) {
     UsbPorts ports;
     ports.plug(2, "good");
     for (const auto& [error, state] :
@@ -118,7 +118,7 @@ TEST(LibusbTransport, AnErrorOfOneDeviceIsNoneOfUsb) {
     EXPECT_TRUE(make_libusb_bus()->find({}));
 }
 
-TEST(LibusbTransport, APlaceIsSkippedOnEveryBus) {
+TEST(LibusbTransport, SkipsExcludedPlacesOnEveryBus) {
     UsbPorts ports;
     ports.plug(2, "good");
     ports.plug(3, "good");

@@ -84,7 +84,7 @@ TEST_F(RecorderTest, KeepsEveryPacketInOrder) {
     EXPECT_EQ(contents.left, 0U);
 }
 
-TEST_F(RecorderTest, WhatWasRecordedIsInTheFileWhileItGoesOn) {
+TEST_F(RecorderTest, WritesPacketsToTheFileWhileRecording) {
     Result<GrowingFile> file = GrowingFile::create(folder / "a");
     ASSERT_TRUE(file);
     PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
@@ -98,7 +98,7 @@ TEST_F(RecorderTest, WhatWasRecordedIsInTheFileWhileItGoesOn) {
     EXPECT_EQ(contents.numbers.front(), 7U);
 }
 
-TEST_F(RecorderTest, AFileThatIsThereIsNeverWrittenOver) {
+TEST_F(RecorderTest, NeverOverwritesAnExistingFile) {
     WithTemporaryFolder::put("a", "precious");
     EXPECT_EQ(GrowingFile::create(folder / "a")->path(), folder / "a.2");
     EXPECT_EQ(GrowingFile::create(folder / "a")->path(), folder / "a.3");
@@ -108,7 +108,7 @@ TEST_F(RecorderTest, AFileThatIsThereIsNeverWrittenOver) {
     EXPECT_EQ(nowhere.error().id, "file.not_made") << nowhere.error().message;
 }
 
-TEST_F(RecorderTest, AFullDiskEndsTheRecordingWithOneSentenceAndHoldsUpNobody) {
+TEST_F(RecorderTest, FullDiskEndsTheRecordingAndIsReported) {
     PacketRecorder recorder(GrowingFile(::open("/dev/full", O_WRONLY | O_CLOEXEC), "stick/a"), "",
                             from_microseconds(0));
     std::uint64_t number = 0;
@@ -157,7 +157,7 @@ private:
     std::jthread reader_;
 };
 
-TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
+TEST_F(RecorderTest, RecordsTheGapThatAHangingDiskCauses) {
     HangingDisk disk;
     std::uint64_t number = 0;
     {
@@ -184,7 +184,7 @@ TEST_F(RecorderTest, ADiskThatHangsMakesAGapThatTheRecordingNames) {
     EXPECT_TRUE(std::is_sorted(contents.numbers.begin(), contents.numbers.end()));
 }
 
-TEST_F(RecorderTest, AGapAtTheEndIsNamedToo) {
+TEST_F(RecorderTest, RecordsAGapAtTheEnd) {
     HangingDisk disk;
     std::uint64_t number = 0;
     {
@@ -200,7 +200,7 @@ TEST_F(RecorderTest, AGapAtTheEndIsNamedToo) {
     EXPECT_GE(contents.dropped, 100U);
 }
 
-TEST_F(RecorderTest, ADiskThatCannotKeepWhatItTookEndsTheRecording) {
+TEST_F(RecorderTest, FailedFlushEndsTheRecording) {
     for (const auto& [error, words] :
          {std::pair{EIO, "cannot be written: Input/output error"}, std::pair{ENOSPC, "the disk is full"}}) {
         disk_error = error;
@@ -216,7 +216,7 @@ TEST_F(RecorderTest, ADiskThatCannotKeepWhatItTookEndsTheRecording) {
     }
 }
 
-TEST_F(RecorderTest, AtTheVeryEndToo) {
+TEST_F(RecorderTest, FinishReportsAFailedFlush) {
     Result<GrowingFile> file = GrowingFile::create(folder / "a");
     ASSERT_TRUE(file);
     PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
@@ -226,7 +226,7 @@ TEST_F(RecorderTest, AtTheVeryEndToo) {
     EXPECT_EQ(finished.error().id, "file.not_grown") << finished.error().message;
 }
 
-TEST_F(RecorderTest, WhatComesAfterTheEndIsNotTaken) {
+TEST_F(RecorderTest, IgnoresPacketsAfterFinish) {
     Result<GrowingFile> file = GrowingFile::create(folder / "a");
     ASSERT_TRUE(file);
     PacketRecorder recorder(std::move(*file), "", from_microseconds(0));
@@ -264,7 +264,7 @@ public:
     }
 };
 
-TEST_F(RecorderTest, BesideARunningTrackerItKeepsWhatWasPolled) {
+TEST_F(RecorderTest, RecordsAllPolledSamplesOfARunningTracker) {
     std::vector<PoseSample> polled;
     {
         Result<GrowingFile> file = GrowingFile::create(folder / "a");

@@ -99,7 +99,7 @@ bool same(const PoseSample& a, const PoseSample& b) {
 const std::vector<UsbTrackerModel> models{UsbTrackerModel::Viper, UsbTrackerModel::Patriot,
                                           UsbTrackerModel::Hid};
 
-TEST(PacketReplay, GivesTheVerySamplesThatTheExhibitHad) {
+TEST(PacketReplay, ReproducesTheRecordedSamples) {
     for (const UsbTrackerModel model : models) {
         const Recorded recorded = eventful(model, seconds(15));
         ASSERT_GT(recorded.samples.size(), 500U);
@@ -111,7 +111,7 @@ TEST(PacketReplay, GivesTheVerySamplesThatTheExhibitHad) {
     }
 }
 
-TEST(PacketReplay, InStepsOfAnyLengthAndASecondTimeItIsTheSame) {
+TEST(PacketReplay, GivesTheSameSamplesForAnyStepAndAfterRewind) {
     const Recorded recorded = eventful(UsbTrackerModel::Viper, seconds(8));
     Result<PacketReplay> replay = PacketReplay::open(recorded.file, "test");
     ASSERT_TRUE(replay);
@@ -127,7 +127,7 @@ TEST(PacketReplay, InStepsOfAnyLengthAndASecondTimeItIsTheSame) {
     }
 }
 
-TEST(PacketReplay, CountsWhatTheExhibitCounted) {
+TEST(PacketReplay, ReproducesTheRecordedCounts) {
     const Recorded recorded = eventful(UsbTrackerModel::Viper, seconds(15));
     Result<PacketReplay> replay = PacketReplay::open(recorded.file, "test");
     ASSERT_TRUE(replay);
@@ -145,7 +145,7 @@ TEST(PacketReplay, CountsWhatTheExhibitCounted) {
     }
 }
 
-TEST(PacketReplay, SaysWhatTheExhibitSaid) {
+TEST(PacketReplay, ReproducesTheRecordedStates) {
     const Recorded recorded = eventful(UsbTrackerModel::Viper, seconds(15));
     Result<PacketReplay> replay = PacketReplay::open(recorded.file, "test");
     ASSERT_TRUE(replay);
@@ -162,7 +162,7 @@ TEST(PacketReplay, SaysWhatTheExhibitSaid) {
     EXPECT_EQ(state_at(milliseconds(10900)), sentence_of(UsbTrackerState::MetalNear));
 }
 
-TEST(PacketReplay, OfASpaceMouseIsInTheTablesFrame) {
+TEST(PacketReplay, SpaceMouseRecordingIsInTheTableFrame) {
     MemoryTap tap;
     const MonotonicTime start = from_microseconds(77);
     const UsbTrackerSetUp set_up{{1.0, 0.0, 0.0}, {0.3, 0.2}};
@@ -181,7 +181,7 @@ TEST(PacketReplay, OfASpaceMouseIsInTheTablesFrame) {
 }
 
 /// Tests every length of the file, as a power cut may leave it.
-TEST(PacketReplay, ARecordingThatIsCutOffPlaysUpToTheCut) {
+TEST(PacketReplay, PlaysATruncatedRecordingUpToTheCut) {
     const Recorded recorded = eventful(UsbTrackerModel::Hid, milliseconds(2500));
     const std::vector<PoseSample> all = replayed(recorded.file);
     const std::size_t first_device = recorded.ends[3];
@@ -215,7 +215,7 @@ TEST(PacketReplay, ARecordingThatIsCutOffPlaysUpToTheCut) {
     EXPECT_GT(before, 100U);
 }
 
-TEST(PacketFile, TheChecksumIsTheCataloguesCrc32) {
+TEST(PacketFile, ChecksumIsTheStandardCrc32) {
     EXPECT_EQ(crc32_ieee(as_bytes("123456789")), 0xCBF43926U);
     EXPECT_EQ(crc32_ieee({}), 0U);
 }
@@ -236,7 +236,7 @@ TEST(PacketFile, ReadsTheDocumentsExample) {
     EXPECT_EQ(written, file);
 }
 
-TEST(PacketFile, EveryChangedBitEndsTheRecordingThere) {
+TEST(PacketFile, AnyChangedBitEndsTheRecordingAtItsPacket) {
     MemoryTap tap;
     const std::array<std::byte, 3> payload{std::byte{1}, std::byte{2}, std::byte{3}};
     for (int k = 0; k < 3; ++k) {
@@ -257,7 +257,7 @@ TEST(PacketFile, EveryChangedBitEndsTheRecordingThere) {
     }
 }
 
-TEST(PacketFile, WhatIsNoRecordingIsRefusedInPlainWords) {
+TEST(PacketFile, RejectsFilesThatAreNotRecordings) {
     const std::string csv = "t_us,station,px_m,py_m,pz_m,qw,qx,qy,qz,ok\n";
     EXPECT_FALSE(is_packet_recording(as_bytes(csv)));
     EXPECT_NE(
@@ -273,7 +273,7 @@ TEST(PacketFile, WhatIsNoRecordingIsRefusedInPlainWords) {
               std::string::npos);
 }
 
-TEST(PacketFile, PacketsOfALaterVersionAreSkippedAndTimeNeverGoesBack) {
+TEST(PacketFile, SkipsUnknownPacketsAndKeepsTimeMonotonic) {
     Bytes file;
     append_packet_header(file);
     append_packet(file, {PacketKind::State, from_microseconds(50), {}});
@@ -288,7 +288,7 @@ TEST(PacketFile, PacketsOfALaterVersionAreSkippedAndTimeNeverGoesBack) {
     EXPECT_EQ(reader.left(), 0U);
 }
 
-TEST(PacketReplay, MutatedPacketsWithGoodChecksumsAreSafe) {
+TEST(PacketReplay, MutatedPacketsGiveOnlyValidPoses) {
     std::mt19937 engine(12);
     std::size_t poses = 0;
     for (const UsbTrackerModel model : models) {
@@ -362,7 +362,7 @@ TEST(PacketReplayTracker, PlaysAtAnySpeedAndAgain) {
     }
 }
 
-TEST(PacketReplayTracker, ARecordingOfACenturyDoesNoHarmAtAnySpeed) {
+TEST(PacketReplayTracker, SurvivesARecordingOfCenturiesAtAnySpeed) {
     for (const double speed : {0.01, 1.0, 100.0}) {
         MemoryTap tap;
         tap.packet(PacketKind::Opened, from_microseconds(0),
@@ -379,7 +379,7 @@ TEST(PacketReplayTracker, ARecordingOfACenturyDoesNoHarmAtAnySpeed) {
     }
 }
 
-TEST(PacketReplayTracker, RoundsThatNobodySawAreLeftOut) {
+TEST(PacketReplayTracker, SkipsMissedRounds) {
     const Recorded recorded = eventful(UsbTrackerModel::Hid, seconds(3));
     Result<PacketReplay> replay = PacketReplay::open(recorded.file, "test");
     ASSERT_TRUE(replay);

@@ -22,7 +22,7 @@ ParsedStream parse_all(std::span<const std::byte> stream) {
     return parsed_stream(stream, parse_patriot);
 }
 
-TEST(PatriotCodec, AFrameWrittenOutByHandIsReadAndCentimetresBecomeMetres) {
+TEST(PatriotCodec, ReadsAHandwrittenFrameAndConvertsToMetres) {
     const ParsedStream parsed = parse_all(frame_by_hand);
     ASSERT_EQ(parsed.frames.size(), 1U);
     EXPECT_EQ(parsed.left, 0U);
@@ -39,7 +39,7 @@ TEST(PatriotCodec, AFrameWrittenOutByHandIsReadAndCentimetresBecomeMetres) {
     EXPECT_TRUE(pose.usable);
 }
 
-TEST(PatriotCodec, LibertysAreReadTheSame) {
+TEST(PatriotCodec, ReadsLibertyFrames) {
     for (const char* tag : {"4C59", "4C55"}) {
         Wire frame = frame_by_hand;
         const Wire letters = wire::from_hex(tag);
@@ -49,7 +49,7 @@ TEST(PatriotCodec, LibertysAreReadTheSame) {
 }
 
 /// Bits of the header that the format fixes: all except sensor, command, error and the reserved byte.
-TEST(PatriotCodec, EveryWrongBitOfTagAndSizeIsRefusedAndTheNextFrameIsRead) {
+TEST(PatriotCodec, RejectsAnyWrongBitInTagOrSizeAndReadsTheNextFrame) {
     const Wire next = wire::patriot_frame(1017, 62, {});
     for (const std::size_t byte : {0U, 1U, 6U, 7U}) {
         for (unsigned bit = 0; bit < 8; ++bit) {
@@ -66,7 +66,7 @@ TEST(PatriotCodec, EveryWrongBitOfTagAndSizeIsRefusedAndTheNextFrameIsRead) {
 
 /// There is no checksum: a wrong bit elsewhere is refused, or moves the pose no farther than the checks
 /// allow.
-TEST(PatriotCodec, AnyOtherWrongBitGivesAPoseWithinTheTrackersReachOrNone) {
+TEST(PatriotCodec, AnyOtherWrongBitGivesAValidPoseOrNone) {
     for (std::size_t bit = 16; bit < frame_by_hand.size() * 8; ++bit) {
         Wire stream = frame_by_hand;
         stream[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
@@ -77,7 +77,7 @@ TEST(PatriotCodec, AnyOtherWrongBitGivesAPoseWithinTheTrackersReachOrNone) {
     }
 }
 
-TEST(PatriotCodec, AFrameCutShortAtAnyByteIsWaitedFor) {
+TEST(PatriotCodec, WaitsForTheRestOfATruncatedFrame) {
     for (std::size_t cut = 0; cut < frame_by_hand.size(); ++cut) {
         const ParsedStream parsed = parse_all(std::span(frame_by_hand).first(cut));
         EXPECT_TRUE(parsed.frames.empty());
@@ -86,7 +86,7 @@ TEST(PatriotCodec, AFrameCutShortAtAnyByteIsWaitedFor) {
     }
 }
 
-TEST(PatriotCodec, AFrameLostFromAnyByteOnIsFollowedByGoodOnesAgain) {
+TEST(PatriotCodec, ResynchronizesAfterATruncatedFrame) {
     const Wire next = wire::patriot_frame(1017, 62, {});
     for (std::size_t cut = 1; cut < frame_by_hand.size(); ++cut) {
         Wire stream(frame_by_hand.begin(), frame_by_hand.begin() + static_cast<std::ptrdiff_t>(cut));
@@ -115,7 +115,7 @@ TEST(PatriotCodec, GarbageInFrontIsSkipped) {
     }
 }
 
-TEST(PatriotCodec, NoNumberAndNoRotationAreRefused) {
+TEST(PatriotCodec, RejectsNanAndAZeroQuaternion) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t k = 0; k < 7; ++k) {
         wire::Pose pose;
@@ -127,13 +127,13 @@ TEST(PatriotCodec, NoNumberAndNoRotationAreRefused) {
     EXPECT_TRUE(parse_all(wire::patriot_frame(1, 1, nothing)).frames.empty());
 }
 
-TEST(PatriotCodec, AFrameThatTheDeviceDisownsIsReadAndNotUsable) {
+TEST(PatriotCodec, FrameWithAnErrorIsNotUsable) {
     const ParsedStream parsed = parse_all(wire::patriot_frame(1, 1, {}, 'e'));
     ASSERT_EQ(parsed.frames.size(), 1U);
     EXPECT_FALSE(parsed.frames[0].sensors[0].usable);
 }
 
-TEST(PatriotCodec, TheAnswerAboutUnitsIsOneDigitAfterU) {
+TEST(PatriotCodec, ParsesTheUnitsAnswer) {
     EXPECT_EQ(patriot_units_answer("01U 1\r\n"), 1);
     EXPECT_EQ(patriot_units_answer("00U 0\r\n"), 0);
     EXPECT_EQ(patriot_units_answer("01V PATRIOT U 0\r\n  U1\r\n"), 1);
@@ -145,7 +145,7 @@ TEST(PatriotCodec, TheAnswerAboutUnitsIsOneDigitAfterU) {
     EXPECT_EQ(patriot_units_answer(""), std::nullopt);
 }
 
-TEST(PatriotCodec, AHundredThousandMutantsAreSafe) {
+TEST(PatriotCodec, MutatedFramesGiveOnlyValidPoses) {
     Wire seed = frame_by_hand;
     const Wire more = wire::patriot_frame(1017, 62, {2});
     seed.insert(seed.end(), more.begin(), more.end());

@@ -40,14 +40,14 @@ TEST(PoseFile, ReadsRowsPastCommentsBlanksAndCarriageReturns) {
     EXPECT_EQ((*poses)[1].rotation, glm::dquat(0, 0, 0, -1));
 }
 
-TEST(PoseFile, QuaternionsComeOutUnit) {
+TEST(PoseFile, NormalizesQuaternions) {
     const auto poses = parse_poses(header + "0,1,0,0,0,3,0,0,4,1\n", "walk.csv");
     ASSERT_TRUE(poses);
     EXPECT_NEAR(poses->front().rotation.w, 0.6, 1e-15);
     EXPECT_NEAR(poses->front().rotation.z, 0.8, 1e-15);
 }
 
-TEST(PoseFile, WhatIsWrittenReadsBackTheSame) {
+TEST(PoseFile, RoundTrip) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> uniform(-1, 1);
     std::vector<PoseSample> samples;

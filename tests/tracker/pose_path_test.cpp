@@ -15,7 +15,7 @@ PoseSample pose(Nanoseconds time, int station, const glm::dvec3& position_m, dou
     return {MonotonicTime(time), station, position_m, glm::angleAxis(yaw, glm::dvec3(0, 0, 1)), true};
 }
 
-TEST(PosePath, GoesThroughItsPosesWithoutAJerk) {
+TEST(PosePath, InterpolatesItsPosesSmoothly) {
     const std::vector<PoseSample> keys{pose(seconds(1), 1, {0.0, 0.0, 0.0}),
                                        pose(seconds(2), 1, {0.2, -0.1, 0.0}, 0.5 * std::numbers::pi),
                                        pose(seconds(4), 1, {0.2, -0.1, 0.0}, 0.5 * std::numbers::pi)};
@@ -36,7 +36,7 @@ TEST(PosePath, GoesThroughItsPosesWithoutAJerk) {
     }
 }
 
-TEST(PosePath, KeepsStationsApartAndLeavesOutWhatIsNotKnown) {
+TEST(PosePath, SeparatesStationsAndMarksUnknownPoses) {
     std::vector<PoseSample> keys{pose(seconds(0), 1, {0.0, 0.0, 0.0}), pose(seconds(1), 2, {0.0, -0.5, 0.5}),
                                  pose(seconds(2), 1, {0.1, 0.0, 0.0}), pose(seconds(3), 1, {0.1, 0.0, 0.0}),
                                  pose(seconds(3), 2, {0.2, -0.5, 0.5})};
@@ -57,7 +57,7 @@ TEST(PosePath, KeepsStationsApartAndLeavesOutWhatIsNotKnown) {
     EXPECT_EQ(heads, 5);
 }
 
-TEST(PosePath, SaysWhatIsWrong) {
+TEST(PosePath, ReportsDescendingTimesAndTooManyPeriods) {
     EXPECT_TRUE(pose_path({}, seconds(1))->empty());
     const std::vector<PoseSample> back{pose(seconds(2), 2, {}), pose(seconds(1), 2, {})};
     EXPECT_NE(pose_path(back, seconds(1)).error().message.find("station 2 at 1.000 s follows one at 2.000 s"),

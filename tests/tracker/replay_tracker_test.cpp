@@ -13,7 +13,7 @@ PoseSample sample_at(std::int64_t t_us, double x, int station = prop_station) {
     return sample;
 }
 
-TEST(ReplayTracker, HandsOutEachSampleOnceWhenItsTimeHasCome) {
+TEST(ReplayTracker, ReturnsEachSampleOnceAtItsTime) {
     ReplayTracker tracker({sample_at(1000, 1), sample_at(1000, 2, head_station), sample_at(3000, 3)},
                           from_microseconds(500'000), false);
     std::vector<PoseSample> samples;

@@ -24,7 +24,7 @@ bool same(const PoseSample& a, const PoseSample& b) {
            a.rotation == b.rotation;
 }
 
-TEST(SimulatedTracker, AnyRhythmOfPollsHandsOutTheSameSamples) {
+TEST(SimulatedTracker, SamplesDoNotDependOnThePollTimes) {
     const SimulatedVisitor visitor;
     const std::vector<PoseSample> expected = polled_once(visitor);
     SimulatedTracker tracker(visitor, start);
@@ -42,7 +42,7 @@ TEST(SimulatedTracker, AnyRhythmOfPollsHandsOutTheSameSamples) {
 }
 
 /// A visitor with a torch moves the prop and the head as before.
-TEST(SimulatedTracker, HasATorchOnlyWhereItIsAskedFor) {
+TEST(SimulatedTracker, HasATorchOnlyOnRequest) {
     SimulatedVisitor visitor;
     visitor.torch = true;
     std::vector<PoseSample> samples = polled_once(visitor);
@@ -55,7 +55,7 @@ TEST(SimulatedTracker, HasATorchOnlyWhereItIsAskedFor) {
     EXPECT_TRUE(std::equal(samples.begin(), torch_begins, without.begin(), same));
 }
 
-TEST(SimulatedTracker, PointsTheTorchAtThePropAndLaysItDownNowAndThen) {
+TEST(SimulatedTracker, PointsTheTorchAtThePropAndSometimesLaysItDown) {
     SimulatedVisitor visitor;
     visitor.torch = true;
     int on_prop = 0, lies = 0;
@@ -88,7 +88,7 @@ TEST(SimulatedTracker, ReportsBothStationsAtItsRate) {
                                [](const PoseSample& a, const PoseSample& b) { return a.time < b.time; }));
 }
 
-TEST(SimulatedTracker, AnotherSeedIsAnotherVisit) {
+TEST(SimulatedTracker, DifferentSeedsGiveDifferentMovements) {
     SimulatedVisitor other;
     other.seed = 2;
     const auto a = polled_once({}, std::chrono::seconds(1));
@@ -97,7 +97,7 @@ TEST(SimulatedTracker, AnotherSeedIsAnotherVisit) {
     EXPECT_NE(a[1].position_m, b[1].position_m);
 }
 
-TEST(SimulatedTracker, ThePropStaysUprightWithinItsPlacesAndTheHeadNearTheEye) {
+TEST(SimulatedTracker, KeepsThePropUprightInItsAreaAndTheHeadNearTheEye) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         SimulatedVisitor visitor;
         visitor.seed = seed;
@@ -118,7 +118,7 @@ TEST(SimulatedTracker, ThePropStaysUprightWithinItsPlacesAndTheHeadNearTheEye) {
     }
 }
 
-TEST(SimulatedTracker, MovesAsAHandDoesWithRestsTurnsAndSlides) {
+TEST(SimulatedTracker, MovesThePropWithRestsTurnsAndSlides) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         SimulatedVisitor visitor;
         visitor.seed = seed;

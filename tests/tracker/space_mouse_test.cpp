@@ -45,7 +45,7 @@ std::vector<std::pair<Nanoseconds, wire::Wire>> held(unsigned id, std::array<std
     return reports;
 }
 
-TEST(SpaceMouseCodec, ReadsBothFormsInTheTablesAxes) {
+TEST(SpaceMouseCodec, ReadsBothReportFormatsInTableAxes) {
     // 100 to the right, 50 towards the user, 20 pressed down
     const auto push = std::get<SpaceMouseMotion>(parse_space_mouse(wire::from_hex("01 6400 3200 1400")));
     EXPECT_EQ(push.push, glm::dvec3(100, -50, -20));
@@ -59,7 +59,7 @@ TEST(SpaceMouseCodec, ReadsBothFormsInTheTablesAxes) {
     EXPECT_EQ(both.turn, glm::dvec3(4, -5, -6));
 }
 
-TEST(SpaceMouseCodec, ButtonsAndBatteryAreNothingOfOursAndOtherLengthsAreRefused) {
+TEST(SpaceMouseCodec, IgnoresButtonsAndBatteryAndRejectsOtherLengths) {
     EXPECT_TRUE(std::holds_alternative<SpaceMouseOther>(parse_space_mouse(wire::from_hex("03 0100"))));
     EXPECT_TRUE(std::holds_alternative<SpaceMouseOther>(parse_space_mouse(wire::from_hex("17 64"))));
     EXPECT_EQ(std::get<DiscardReason>(parse_space_mouse({})), DiscardReason::Length);
@@ -72,7 +72,7 @@ TEST(SpaceMouseCodec, ButtonsAndBatteryAreNothingOfOursAndOtherLengthsAreRefused
               DiscardReason::Length);
 }
 
-TEST(SpaceMouse, FullDeflectionForOneSecondGoesAsFarAsItSays) {
+TEST(SpaceMouse, FullDeflectionMovesAtTheStatedSpeed) {
     const auto samples = play(held(1, {0, -350, 0}, milliseconds(800)), milliseconds(1200), milliseconds(20));
     EXPECT_LT(glm::distance(samples.back().position_m,
                             glm::dvec3(0.0, 0.8 * SpaceMouseSession::full_push_m_per_s, 0.0)),
@@ -84,7 +84,7 @@ TEST(SpaceMouse, FullDeflectionForOneSecondGoesAsFarAsItSays) {
     EXPECT_EQ(turned.back().position_m, glm::dvec3(0.0));
 }
 
-TEST(SpaceMouse, ItStaysWithinTheTableAndTurnsOnAtTheEdge) {
+TEST(SpaceMouse, StaysWithinTheTableAndTheHeightLimits) {
     const auto samples =
         play(held(1, {-350, 350, -350}, std::chrono::seconds(5)), std::chrono::seconds(5), milliseconds(20));
     EXPECT_EQ(samples.back().position_m,
@@ -93,20 +93,20 @@ TEST(SpaceMouse, ItStaysWithinTheTableAndTurnsOnAtTheEdge) {
     EXPECT_EQ(down.back().position_m, glm::dvec3(0.0));
 }
 
-TEST(SpaceMouse, WithinTheDeadZoneNothingMoves) {
+TEST(SpaceMouse, IgnoresTheDeadZone) {
     const auto samples = play(held(1, {15, -15, 15}, milliseconds(500)), milliseconds(500), milliseconds(20));
     EXPECT_EQ(samples.back().position_m, glm::dvec3(0.0));
     const auto beyond = play(held(1, {16, 0, 0}, milliseconds(500)), milliseconds(600), milliseconds(20));
     EXPECT_NEAR(beyond.back().position_m.x, 0.5 * SpaceMouseSession::full_push_m_per_s / 335.0, 1e-12);
 }
 
-TEST(SpaceMouse, AMouseThatHangsStopsTheProp) {
+TEST(SpaceMouse, StopsThePropWhenReportsCease) {
     const auto samples =
         play({{Nanoseconds(0), wire::space_mouse(1, {350, 0, 0})}}, milliseconds(2000), milliseconds(20));
     EXPECT_NEAR(samples.back().position_m.x, 0.1 * SpaceMouseSession::full_push_m_per_s, 1e-12);
 }
 
-TEST(SpaceMouse, SamplesComeAtRestTooAndDependOnTheReportsAlone) {
+TEST(SpaceMouse, SamplesAreRegularAndDoNotDependOnThePollTimes) {
     std::mt19937 engine(4);
     std::vector<std::pair<Nanoseconds, wire::Wire>> reports;
     for (Nanoseconds time{0}; time < milliseconds(3000); time += microseconds(2000 + engine() % 20'000)) {
@@ -157,7 +157,7 @@ TEST(SpaceMouse, TurnsAboutChangingAxesAreIntegratedExactly) {
     }
 }
 
-TEST(SpaceMouse, AfterAMachineSleptNoSamplesAreMadeUp) {
+TEST(SpaceMouse, InventsNoSamplesAfterSuspend) {
     SpaceMouseSession session(table_half);
     std::vector<PoseSample> samples;
     session.receive(wire::space_mouse(1, {350, 0, 0}), start, samples);

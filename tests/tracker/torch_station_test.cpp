@@ -34,7 +34,7 @@ UsbTrackerState after(SequenceChecker& checker, std::vector<PoseSample>& samples
     return checker.state(now);
 }
 
-TEST(TorchStation, ComesThroughBesideTheOthers) {
+TEST(TorchStation, IsReportedBesideTheOtherStations) {
     SequenceChecker checker(tick_ns);
     std::vector<PoseSample> samples;
     EXPECT_EQ(after(checker, samples, [](DeviceFrame&) {}), UsbTrackerState::Streaming);
@@ -43,7 +43,7 @@ TEST(TorchStation, ComesThroughBesideTheOthers) {
     EXPECT_EQ(samples[2].position_m.x, 0.1 * 3.0);
 }
 
-TEST(TorchStation, OutOfReachOrUnpluggedIsNoFault) {
+TEST(TorchStation, MissingSensorIsNoFault) {
     SequenceChecker checker(tick_ns);
     std::vector<PoseSample> samples;
     EXPECT_EQ(after(checker, samples,
@@ -56,7 +56,7 @@ TEST(TorchStation, OutOfReachOrUnpluggedIsNoFault) {
 }
 
 /// Visitors are told to keep the prop away from metal; metal near the torch moves no artifact.
-TEST(TorchStation, NearMetalConcernsNoVisitor) {
+TEST(TorchStation, IgnoresMetalNearTheTorch) {
     for (const std::size_t sensor : {0U, 1U, 2U}) {
         SequenceChecker checker(tick_ns);
         std::vector<PoseSample> samples;

@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-TEST(UsbTrackerDriver, SetsUpAndHandsOutWhatIsSent) {
+TEST(UsbTrackerDriver, SetsUpAndReturnsTheSentPoses) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         ASSERT_TRUE(bench.until_streaming(seconds(2)));
@@ -28,7 +28,7 @@ TEST(UsbTrackerDriver, SetsUpAndHandsOutWhatIsSent) {
     }
 }
 
-TEST(UsbTrackerDriver, AViperStreamsOnlyAfterEverySettingWasReadBack) {
+TEST(UsbTrackerDriver, ViperStreamsOnlyAfterEverySettingIsReadBack) {
     Bench bench(UsbTrackerModel::Viper);
     ASSERT_TRUE(bench.until_streaming(seconds(2)));
     constexpr std::uint32_t set = 0;
@@ -43,14 +43,14 @@ TEST(UsbTrackerDriver, AViperStreamsOnlyAfterEverySettingWasReadBack) {
     EXPECT_EQ(bench.device.settings[6], wire::from_hex("02000000"));
 }
 
-TEST(UsbTrackerDriver, APatriotIsToldEverythingBeforeItStreams) {
+TEST(UsbTrackerDriver, SendsAllSettingsToAPatriotBeforeStreaming) {
     Bench bench(UsbTrackerModel::Patriot);
     ASSERT_TRUE(bench.until_streaming(seconds(2)));
     EXPECT_EQ(bench.device.text, "PF0\r\x16\rU1\rU\rH*,1.0000,0.0000,0.0000\rX0,1,0,0\rY0,1,0,0\r"
                                  "O*,8,9,11,3,7\r@B0\rF1\rC\r");
 }
 
-TEST(UsbTrackerDriver, ADeviceThatStreamsAlreadyIsSetUpAllTheSame) {
+TEST(UsbTrackerDriver, SetsUpADeviceThatAlreadyStreams) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         bench.device.streaming = true;
@@ -78,7 +78,7 @@ TEST(UsbTrackerDriver, ADeviceThatKeepsInchesNeverStreams) {
     }
 }
 
-TEST(UsbTrackerDriver, UnitsThatChangeWhileItStreamsAreSetAgainAndNoPoseOfThemIsUsed) {
+TEST(UsbTrackerDriver, ResetsUnitsThatChangeAndDiscardsTheirPoses) {
     Bench bench(UsbTrackerModel::Viper);
     ASSERT_TRUE(bench.until_streaming(seconds(2)));
     bench.device.commands.clear();
@@ -93,7 +93,7 @@ TEST(UsbTrackerDriver, UnitsThatChangeWhileItStreamsAreSetAgainAndNoPoseOfThemIs
     EXPECT_TRUE(bench.until_streaming(seconds(2)));
 }
 
-TEST(UsbTrackerDriver, ABootingDeviceIsWaitedForAndSaysSo) {
+TEST(UsbTrackerDriver, WaitsForABootingDeviceAndReportsIt) {
     for (const UsbTrackerModel model : {UsbTrackerModel::Viper, UsbTrackerModel::Hid}) {
         Bench bench(model);
         bench.device.boots_until = bench.device.now + seconds(8);
@@ -103,7 +103,7 @@ TEST(UsbTrackerDriver, ABootingDeviceIsWaitedForAndSaysSo) {
     }
 }
 
-TEST(UsbTrackerDriver, ADeafDeviceIsTriedAgainUntilItAnswers) {
+TEST(UsbTrackerDriver, RetriesADeviceUntilItAnswers) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         bench.device.deaf = true;
@@ -114,7 +114,7 @@ TEST(UsbTrackerDriver, ADeafDeviceIsTriedAgainUntilItAnswers) {
     }
 }
 
-TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsSaidAndNoReasonNotToStream) {
+TEST(UsbTrackerDriver, ReportsAFilterThatStaysOnAndStillStreams) {
     for (const FakeFilter filter :
          {FakeFilter::Refuses, FakeFilter::SaysNothing, FakeFilter::StaysOn, FakeFilter::TurnStaysOn}) {
         Bench bench(UsbTrackerModel::Viper);
@@ -137,7 +137,7 @@ TEST(UsbTrackerDriver, AFilterThatCannotBeSwitchedOffIsSaidAndNoReasonNotToStrea
     }
 }
 
-TEST(UsbTrackerDriver, AFilterWhoseAnswerDidNotComeIsAskedAgain) {
+TEST(UsbTrackerDriver, RepeatsAnUnansweredFilterQuery) {
     Bench bench(UsbTrackerModel::Viper);
     bench.device.filter = FakeFilter::SaysNothing;
     bench.run(milliseconds(800)); // one answer is overdue
@@ -147,7 +147,7 @@ TEST(UsbTrackerDriver, AFilterWhoseAnswerDidNotComeIsAskedAgain) {
     EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
 }
 
-TEST(UsbTrackerDriver, AViperThatAnswersLateStreamsAndItsUnitsAreNotDoubted) {
+TEST(UsbTrackerDriver, LateAnswersDelaySetUpWithoutAUnitsError) {
     for (const Nanoseconds late : {milliseconds(150), milliseconds(250), milliseconds(450)}) {
         Bench bench(UsbTrackerModel::Viper);
         bench.device.answers_after = late;
@@ -165,7 +165,7 @@ TEST(UsbTrackerDriver, AViperThatAnswersLateStreamsAndItsUnitsAreNotDoubted) {
 
 /// The cable is unplugged at every single read and write of set-up and streaming, and plugged in three
 /// seconds later.
-TEST(UsbTrackerDriver, UnpluggedAtAnyMomentItIsBackWithinTwoSeconds) {
+TEST(UsbTrackerDriver, ReconnectsAfterUnpluggingAtAnyCall) {
     for (const UsbTrackerModel model : models) {
         for (int calls = 0; calls < 120; ++calls) {
             Bench bench(model);
@@ -180,7 +180,7 @@ TEST(UsbTrackerDriver, UnpluggedAtAnyMomentItIsBackWithinTwoSeconds) {
     }
 }
 
-TEST(UsbTrackerDriver, ADeviceThatFallsSilentIsReportedAndTakenUpAgain) {
+TEST(UsbTrackerDriver, ReportsASilentDeviceAndRecovers) {
     for (const UsbTrackerModel model : models) {
         for (const Nanoseconds length : {Nanoseconds(milliseconds(400)), Nanoseconds(seconds(10))}) {
             Bench bench(model);
@@ -198,7 +198,7 @@ TEST(UsbTrackerDriver, ADeviceThatFallsSilentIsReportedAndTakenUpAgain) {
     }
 }
 
-TEST(UsbTrackerDriver, SaysInPlainWordsWhatIsInTheWay) {
+TEST(UsbTrackerDriver, ReportsWhyADeviceCannotBeUsed) {
     const std::vector<std::pair<UsbTrackerState, std::string>> cases{
         {UsbTrackerState::NotConnected, "no tracker is connected"},
         {UsbTrackerState::NoPermission, "may not open it"},
@@ -224,7 +224,7 @@ TEST(UsbTrackerDriver, KnowsTheDevicesByTheirIds) {
     EXPECT_FALSE(known_tracker(0x10c4, 0xbf01));
 }
 
-TEST(UsbTrackerDriver, MetalAndAMissingSensorAreSaid) {
+TEST(UsbTrackerDriver, ReportsMetalAndAMissingSensor) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         ASSERT_TRUE(bench.until_streaming(seconds(2)));
@@ -245,7 +245,7 @@ TEST(UsbTrackerDriver, MetalAndAMissingSensorAreSaid) {
     }
 }
 
-TEST(UsbTrackerDriver, LostDoubledAndLateFramesAreCountedAndNoneIsHandedOutTwice) {
+TEST(UsbTrackerDriver, CountsLostDuplicateAndLateFramesAndReturnsNoneTwice) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         bench.device.connectors = {1};
@@ -286,7 +286,7 @@ TEST(UsbTrackerDriver, LostDoubledAndLateFramesAreCountedAndNoneIsHandedOutTwice
     }
 }
 
-TEST(UsbTrackerDriver, ABrokenStreamHandsOutOnlyPosesThatWereSent) {
+TEST(UsbTrackerDriver, CorruptedStreamYieldsOnlyPosesThatWereSent) {
     Bench bench(UsbTrackerModel::Viper);
     std::mt19937 engine(10);
     bench.device.mischief = [&](wire::Wire frame) -> std::vector<wire::Wire> {
@@ -314,7 +314,7 @@ TEST(UsbTrackerDriver, ABrokenStreamHandsOutOnlyPosesThatWereSent) {
     EXPECT_GT(bench.counts().broken, 1000U);
 }
 
-TEST(UsbTrackerDriver, NumbersThatAreNoneAreMarkedAndCounted) {
+TEST(UsbTrackerDriver, MarksAndCountsInvalidPoses) {
     Bench bench(UsbTrackerModel::Viper);
     bench.device.mischief = [&](const wire::Wire&) -> std::vector<wire::Wire> {
         wire::Pose pose;
@@ -330,7 +330,7 @@ TEST(UsbTrackerDriver, NumbersThatAreNoneAreMarkedAndCounted) {
     EXPECT_EQ(bench.counts().unusable, bench.samples.size());
 }
 
-TEST(UsbTrackerDriver, ADeviceThatCountsFromTheBeginningAgainIsBelieved) {
+TEST(UsbTrackerDriver, AcceptsACounterThatRestarts) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         ASSERT_TRUE(bench.until_streaming(seconds(2)));
@@ -343,7 +343,7 @@ TEST(UsbTrackerDriver, ADeviceThatCountsFromTheBeginningAgainIsBelieved) {
     }
 }
 
-TEST(UsbTrackerDriver, ItIsBelievedThoughItsFramesAreLostOrDoubledAllTheTime) {
+TEST(UsbTrackerDriver, AcceptsARestartedCounterWithLostOrDuplicateFrames) {
     const auto lost = [](std::uint32_t every) {
         return [=](const wire::Wire& frame, std::uint32_t number) {
             return number % every == 0 ? std::vector<wire::Wire>{} : std::vector<wire::Wire>{frame};
@@ -369,7 +369,7 @@ TEST(UsbTrackerDriver, ItIsBelievedThoughItsFramesAreLostOrDoubledAllTheTime) {
     }
 }
 
-TEST(UsbTrackerDriver, AStreamOfWhichNothingCanBeTakenIsOpenedAnew) {
+TEST(UsbTrackerDriver, ReopensAStreamWithoutAnyUsableFrame) {
     for (const UsbTrackerModel model : {UsbTrackerModel::Viper, UsbTrackerModel::Patriot}) {
         Bench bench(model);
         ASSERT_TRUE(bench.until_streaming(seconds(2)));

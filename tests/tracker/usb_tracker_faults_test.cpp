@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-TEST(UsbTrackerFaults, AWarningOrARefusedAnswerInTheSetUpIsSaidAndItStreams) {
+TEST(UsbTrackerFaults, ReportsWarningsAndRefusalsInSetUpAndStillStreams) {
     for (const FakeAnswers manner :
          {FakeAnswers::WarnsOfSettings, FakeAnswers::WarnsOfQuestions, FakeAnswers::RefusesQuestions}) {
         Bench bench(UsbTrackerModel::Viper);
@@ -22,7 +22,7 @@ TEST(UsbTrackerFaults, AWarningOrARefusedAnswerInTheSetUpIsSaidAndItStreams) {
     }
 }
 
-TEST(UsbTrackerFaults, AFaultOfTheSystemIsSaidAndThePosesStay) {
+TEST(UsbTrackerFaults, ReportsASystemFaultAndKeepsThePoses) {
     Bench bench(UsbTrackerModel::Viper);
     ASSERT_TRUE(bench.until_streaming(seconds(2)));
     bench.device.fault = 3;
@@ -35,7 +35,7 @@ TEST(UsbTrackerFaults, AFaultOfTheSystemIsSaidAndThePosesStay) {
     EXPECT_EQ(bench.state(), UsbTrackerState::Streaming);
 }
 
-TEST(UsbTrackerFaults, AFaultOfAHidTrackerIsSaid) {
+TEST(UsbTrackerFaults, ReportsAFaultOfAHidTracker) {
     Bench bench(UsbTrackerModel::Hid);
     ASSERT_TRUE(bench.until_streaming(seconds(2)));
     bench.device.fault = 1;
@@ -44,7 +44,7 @@ TEST(UsbTrackerFaults, AFaultOfAHidTrackerIsSaid) {
     EXPECT_FALSE(bench.samples.back().ok); // reported with each pose here
 }
 
-TEST(UsbTrackerFaults, ADeviceThatFailsItsOwnTestInTheSetUpSaysSo) {
+TEST(UsbTrackerFaults, ReportsAFailedSelfTestInSetUp) {
     Bench bench(UsbTrackerModel::Viper);
     bench.device.manner = FakeAnswers::FailsItsTest;
     bench.run(seconds(10));
@@ -67,7 +67,7 @@ Nanoseconds oldest_over(Bench& bench, Nanoseconds length) {
     return oldest;
 }
 
-TEST(UsbTrackerFaults, ADeviceSlowerThanItSaysIsNamedAndItsPosesAreFreshAllTheSame) {
+TEST(UsbTrackerFaults, ReportsASlowDeviceAndKeepsPosesFresh) {
     for (const UsbTrackerModel model : models) {
         for (const double slower : {1.06, 1.5, 4.0, 30.0}) {
             Bench bench(model);
@@ -83,7 +83,7 @@ TEST(UsbTrackerFaults, ADeviceSlowerThanItSaysIsNamedAndItsPosesAreFreshAllTheSa
     }
 }
 
-TEST(UsbTrackerFaults, OldPosesAreSaidToBeOldBeforeTheClockIsGivenUp) {
+TEST(UsbTrackerFaults, ReportsLatePosesWithinASecond) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         bench.device.slower = 4.0;
@@ -93,7 +93,7 @@ TEST(UsbTrackerFaults, OldPosesAreSaidToBeOldBeforeTheClockIsGivenUp) {
     }
 }
 
-TEST(UsbTrackerFaults, AClockThatStandsStillIsNamedAndItsPosesAreFreshAllTheSame) {
+TEST(UsbTrackerFaults, ReportsAStoppedClockAndKeepsPosesFresh) {
     for (const UsbTrackerModel model : {UsbTrackerModel::Patriot, UsbTrackerModel::Hid}) {
         Bench bench(model);
         ASSERT_TRUE(bench.until_streaming(seconds(2)));
@@ -109,7 +109,7 @@ TEST(UsbTrackerFaults, AClockThatStandsStillIsNamedAndItsPosesAreFreshAllTheSame
     }
 }
 
-TEST(UsbTrackerFaults, ADeviceOfOneHertzIsNotStaleBetweenItsSamples) {
+TEST(UsbTrackerFaults, OneHertzDeviceIsNotStaleBetweenSamples) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         const std::uint32_t every = model == UsbTrackerModel::Patriot ? 60 : 120;
@@ -128,7 +128,7 @@ TEST(UsbTrackerFaults, ADeviceOfOneHertzIsNotStaleBetweenItsSamples) {
     }
 }
 
-TEST(UsbTrackerFaults, CountsGoOnOverEveryConnection) {
+TEST(UsbTrackerFaults, CountsAccumulateOverConnections) {
     for (const UsbTrackerModel model : models) {
         Bench bench(model);
         for (int round = 0; round < 3; ++round) {
@@ -216,7 +216,7 @@ private:
     std::vector<PoseSample> samples_;
 };
 
-TEST(UsbTrackerFaults, OfTwoTrackersADeadFirstOneLetsTheSecondCome) {
+TEST(UsbTrackerFaults, UsesTheSecondTrackerWhenTheFirstIsDead) {
     const std::vector<std::function<void(FakeUsbTracker&)>> ways_to_be_dead{
         [](FakeUsbTracker& device) { device.deaf = true; },
         [](FakeUsbTracker& device) { device.mute = true; },
@@ -240,7 +240,7 @@ TEST(UsbTrackerFaults, OfTwoTrackersADeadFirstOneLetsTheSecondCome) {
     }
 }
 
-TEST(UsbTrackerFaults, OfManyTrackersEachIsTriedBeforeOneIsTriedAgain) {
+TEST(UsbTrackerFaults, TriesEveryTrackerBeforeRetryingOne) {
     for (const std::size_t count : {2U, 3U, 5U}) {
         Crowd crowd(count);
         for (std::size_t k = 0; k + 1 < count; ++k) {

@@ -84,7 +84,7 @@ private:
     LongSearch& search_;
 };
 
-TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
+TEST(UsbTracker, PollsAcrossReconnections) {
     std::atomic<int> found{0};
     UsbTracker tracker(std::make_unique<RestlessBus>(found), {});
     EXPECT_FALSE(tracker.reports_table_frame());
@@ -116,7 +116,7 @@ TEST(UsbTracker, PollsWhileTheDeviceComesAndGoes) {
     EXPECT_GT(counts.frames, 0U);
 }
 
-TEST(UsbTracker, ALongCallOfTheDeviceHoldsUpNoPoll) {
+TEST(UsbTracker, SlowDeviceCallBlocksNoPoll) {
     LongSearch search;
     UsbTracker tracker(std::make_unique<SlowBus>(search), {});
     std::vector<PoseSample> samples;

@@ -25,7 +25,7 @@ ParsedStream parse_all(std::span<const std::byte> stream) {
     return parsed_stream(stream, parse_viper);
 }
 
-TEST(ViperCodec, TheChecksumIsTheCataloguesCrc16Arc) {
+TEST(ViperCodec, ChecksumIsTheStandardCrc16Arc) {
     constexpr std::string_view text = "123456789";
     EXPECT_EQ(crc16_arc(std::as_bytes(std::span(text.data(), text.size()))), 0xBB3D);
     EXPECT_EQ(crc16_arc({}), 0);
@@ -47,7 +47,7 @@ TEST(ViperCodec, AFrameWrittenOutByHandIsRead) {
     EXPECT_TRUE(pose.usable);
 }
 
-TEST(ViperCodec, CommandsAreTheBytesOfTheDescription) {
+TEST(ViperCodec, CommandsMatchTheSpecifiedBytes) {
     const ViperCommandBytes stop(ViperCommand::Continuous, ViperAction::Reset);
     const Wire stop_by_hand =
         wire::from_hex("56505243 18000000 FFFFFFFF 13000000 02000000 00000000 00000000 CFCA0000");
@@ -59,7 +59,7 @@ TEST(ViperCodec, CommandsAreTheBytesOfTheDescription) {
     EXPECT_EQ(Wire(set.bytes().begin(), set.bytes().end()), set_by_hand);
 }
 
-TEST(ViperCodec, ANakSaysWhichCommandAndWhy) {
+TEST(ViperCodec, ReadsCommandAndReasonOfANak) {
     const Wire nak = wire::from_hex("56505243 1C000000 40E20100 07000000 04000000 FFFFFFFF 00000000"
                                     "01000000 2C340000");
     const ViperStep step = parse_viper(nak);
@@ -71,7 +71,7 @@ TEST(ViperCodec, ANakSaysWhichCommandAndWhy) {
     EXPECT_EQ(reply->payload[0], static_cast<std::byte>(ViperNak::Booting));
 }
 
-TEST(ViperCodec, EverySingleBitThatIsWrongIsRefusedAndTheNextFrameIsRead) {
+TEST(ViperCodec, RejectsAnyWrongBitAndReadsTheNextFrame) {
     const Wire next = wire::viper_frame(7, {wire::Pose{}, wire::Pose{2}});
     for (std::size_t bit = 0; bit < frame_by_hand.size() * 8; ++bit) {
         Wire stream = frame_by_hand;
@@ -85,7 +85,7 @@ TEST(ViperCodec, EverySingleBitThatIsWrongIsRefusedAndTheNextFrameIsRead) {
     }
 }
 
-TEST(ViperCodec, AFrameCutShortAtAnyByteIsWaitedForAndThenRead) {
+TEST(ViperCodec, WaitsForTheRestOfATruncatedFrame) {
     for (std::size_t cut = 0; cut < frame_by_hand.size(); ++cut) {
         const ParsedStream parsed = parse_all(std::span(frame_by_hand).first(cut));
         EXPECT_TRUE(parsed.frames.empty());
@@ -94,7 +94,7 @@ TEST(ViperCodec, AFrameCutShortAtAnyByteIsWaitedForAndThenRead) {
     }
 }
 
-TEST(ViperCodec, AFrameLostFromAnyByteOnCostsOnlyItself) {
+TEST(ViperCodec, TruncatedFrameLosesOnlyItself) {
     const Wire next = wire::viper_frame(8, {wire::Pose{}});
     for (std::size_t cut = 1; cut < frame_by_hand.size(); ++cut) {
         Wire stream(frame_by_hand.begin(), frame_by_hand.begin() + static_cast<std::ptrdiff_t>(cut));
@@ -124,7 +124,7 @@ TEST(ViperCodec, GarbageInFrontIsSkipped) {
     }
 }
 
-TEST(ViperCodec, APoseThatIsNoneIsNotUsable) {
+TEST(ViperCodec, MarksInvalidPosesAsNotUsable) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     std::vector<wire::Pose> poses;
@@ -150,7 +150,7 @@ TEST(ViperCodec, APoseThatIsNoneIsNotUsable) {
     }
 }
 
-TEST(ViperCodec, OtherUnitsThanSetAreNoted) {
+TEST(ViperCodec, MarksPosesInOtherUnitsAsNotUsable) {
     for (unsigned position = 0; position < 4; ++position) {
         for (unsigned orientation = 0; orientation < 4; ++orientation) {
             wire::Pose pose;
@@ -173,7 +173,7 @@ TEST(ViperCodec, SixteenSensorsAreReadAndSeventeenRefused) {
 }
 
 /// Each mutant is in memory of exactly its size, so the address sanitizer detects reads beyond it.
-TEST(ViperCodec, AHundredThousandMutantsAreSafeAndGiveNoPoseThatWasNotSent) {
+TEST(ViperCodec, MutatedStreamsGiveOnlyFramesThatWereSent) {
     Wire seed = frame_by_hand;
     for (const Wire& more : {wire::viper_reply(7, 3, wire::from_hex("03000000 02000000")),
                              wire::viper_frame(9, {{}, {2}, {3}})}) {

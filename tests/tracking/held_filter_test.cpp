@@ -56,7 +56,7 @@ private:
     std::normal_distribution<double> normal_;
 };
 
-TEST(HeldFilter, OnTheTableItIsTheTablesFilterBitForBit) {
+TEST(HeldFilter, EqualsTheTableFilterBitForBitOnTheTable) {
     std::uint64_t seed = 1;
     for (const Motion& motion : {Motion(stands), Motion(slides), Motion(slides_on_its_side)}) {
         HeldFilter filter(PoseNoise{}, lever_m);
@@ -92,13 +92,13 @@ double slip_mm(PoseFilter& filter, const Motion& motion, std::uint64_t seed) {
     return sum / samples;
 }
 
-TEST(HeldFilter, InTheHandItSlipsLessThanTheTablesFilter) {
+TEST(HeldFilter, SlipsLessThanTheTableFilterInTheHand) {
     HeldFilter held(PoseNoise{}, lever_m);
     MotionFilter table(exhibit_filter());
     EXPECT_LT(slip_mm(held, is_held, 5), 0.75 * slip_mm(table, is_held, 5));
 }
 
-TEST(HeldFilter, GoesOverSoftlyWhenThePropIsLiftedAndLaidDown) {
+TEST(HeldFilter, BlendsSmoothlyWhenThePropIsLiftedAndLaidDown) {
     constexpr double lifted_s = 2.0, laid_s = 6.0, lift_s = 0.3;
     // Lifted by 100 mm, carried, and laid down again; the smooth step has no kink.
     const Motion motion = [](double t_s) {
@@ -165,7 +165,7 @@ TEST(HeldFilter, AllocatesNothingAfterConstruction) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-TEST(HeldMeter, DoesNotDependOnHowTheTimeOfAStandingPropIsCut) {
+TEST(HeldMeter, DoesNotDependOnTheStepLengthForAStandingProp) {
     HeldMeter often({}, lever_m), rarely({}, lever_m);
     const geometry::RigidTransform low, high{{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.004}};
     for (HeldMeter* const meter : {&often, &rarely}) {

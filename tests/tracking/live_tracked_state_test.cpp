@@ -22,7 +22,7 @@ tracker::PoseSample prop_at(std::int64_t t_us, double x_m, double yaw_rad = 0.0)
     return sample;
 }
 
-TEST(LiveTrackedState, KnowsNothingAtFirstButTheDefaultEye) {
+TEST(LiveTrackedState, StartsWithTheDefaultEyeOnly) {
     LiveTrackedState live(default_eye, lever_m);
     const TrackedState tracked_state = live.at(from_microseconds(7));
     EXPECT_FALSE(tracked_state.prop_known);
@@ -30,7 +30,7 @@ TEST(LiveTrackedState, KnowsNothingAtFirstButTheDefaultEye) {
     EXPECT_EQ(tracked_state.eye_m, default_eye);
 }
 
-TEST(LiveTrackedState, CountsWhatIsNoPose) {
+TEST(LiveTrackedState, RejectsAnInvalidPose) {
     LiveTrackedState live(default_eye, lever_m);
     EXPECT_TRUE(live.take(prop_at(0, 0.1)));
     tracker::PoseSample broken = prop_at(16'000, std::numeric_limits<double>::quiet_NaN());
@@ -43,7 +43,7 @@ TEST(LiveTrackedState, CountsWhatIsNoPose) {
 }
 
 /// The filter of the hand is not there at all: its poses are those of the table's, bit for bit, also while it is lifted.
-TEST(LiveTrackedState, APropThatStandsOnTheTableHasTheTablesFilterAlone) {
+TEST(LiveTrackedState, UsesOnlyTheTableFilterForAPropOnTheTable) {
     LiveTrackedState on_table(default_eye, lever_m, {}, PropMotion::OnTable);
     LiveTrackedState in_hand(default_eye, lever_m);
     PoseEstimator table(std::make_unique<MotionFilter>(exhibit_filter()));
@@ -88,7 +88,7 @@ TEST(LiveTrackedState, RestsWhenThePropRests) {
     EXPECT_LT(slip_m(step_between({rotation_of({0.0, 0.0, yaw}), {x, 0.0, 0.0}}, before), lever_m), 0.000051);
 }
 
-TEST(LiveTrackedState, ADropoutHoldsThenIsStaleAndAReturnIsTakenUpWithoutAJump) {
+TEST(LiveTrackedState, HoldsThePropInADropoutAndReturnsWithoutAJump) {
     LiveTrackedState live(default_eye, lever_m);
     constexpr std::int64_t period_us = 16'667;
     constexpr int lost = 60;
@@ -120,7 +120,7 @@ TEST(LiveTrackedState, ADropoutHoldsThenIsStaleAndAReturnIsTakenUpWithoutAJump) 
 }
 
 /// The eye through a loss and a return; the loss is shorter or longer than the glide.
-TEST(LiveTrackedState, AHeadThatIsLostAndFoundMovesTheEyeWithoutAJump) {
+TEST(LiveTrackedState, TheEyeDoesNotJumpWhenTheHeadIsLostAndFound) {
     constexpr std::int64_t period_us = 16'667;
     constexpr int lost = 60;
     const glm::dvec3 before_loss(0.3, -0.5, 0.45);
@@ -160,7 +160,7 @@ TEST(LiveTrackedState, AHeadThatIsLostAndFoundMovesTheEyeWithoutAJump) {
 }
 
 /// A fixed viewer's eye, and the eye before the first head sample, is the default one bit for bit.
-TEST(LiveTrackedState, WithoutAHeadTheEyeRests) {
+TEST(LiveTrackedState, TheEyeStaysAtTheDefaultWithoutAHead) {
     LiveTrackedState live(default_eye, lever_m);
     for (std::int64_t t_us = 0; t_us < 2'000'000; t_us += 16'667) {
         live.take(prop_at(t_us, 0.1));
@@ -170,7 +170,7 @@ TEST(LiveTrackedState, WithoutAHeadTheEyeRests) {
     }
 }
 
-TEST(LightDelay, FollowsTheMeasuredFlipsAndWhatCannotBeOneDoesNoHarm) {
+TEST(LightDelay, FollowsTheFlipsAndBoundsImpossibleOnes) {
     LightDelay delay(std::chrono::milliseconds(17));
     EXPECT_EQ(delay.from_now(), std::chrono::milliseconds(17));
     MonotonicTime now = from_microseconds(1'000'000);
@@ -193,7 +193,7 @@ TEST(LightDelay, FollowsTheMeasuredFlipsAndWhatCannotBeOneDoesNoHarm) {
     EXPECT_EQ(delay.from_now(), before);
 }
 
-TEST(LightDelay, DoesNotDependOnHowManyFramesAnIntervalHas) {
+TEST(LightDelay, DoesNotDependOnTheFrameRate) {
     constexpr double interval_s = 0.24;
     for (const int frames : {1, 3, 24, 240, 24'000}) {
         LightDelay delay(Nanoseconds(0));

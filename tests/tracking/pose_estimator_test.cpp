@@ -75,7 +75,7 @@ TEST(PoseEstimator, PredictsSteadyMotionExactlyWithOneModel) {
     EXPECT_LT(exact_pose::angle(estimate.pose.rotation, motion.rotation(t_s)), 1e-8);
 }
 
-TEST(PoseEstimator, PredictsSteadyMotionUpToItsCautionWithAllModels) {
+TEST(PoseEstimator, PredictsSteadyMotionWithinAQuarterWithAllModels) {
     PoseEstimator estimator = exhibit_estimator();
     const SteadyMotion motion;
     std::int64_t asked_us = 0;
@@ -107,14 +107,14 @@ double tremble_mm(PoseEstimator estimator, double speed_m_s) {
     return 1e3 * std::sqrt(sum / samples);
 }
 
-TEST(PoseEstimator, APropThatIsSlidSlowlyDoesNotTremble) {
+TEST(PoseEstimator, ASlowlySlidPropDoesNotTremble) {
     for (const double speed_m_s : {0.001, 0.002, 0.005, 0.015, 0.05}) {
         EXPECT_LT(tremble_mm(exhibit_estimator(), speed_m_s), 0.25) << speed_m_s;
     }
     EXPECT_GT(tremble_mm(glide_estimator(), 0.015), 0.5); // the tremble of a single bandwidth for all speeds
 }
 
-TEST(MotionTrack, ACreepDoesNotDependOnHowItsTimeIsCut) {
+TEST(MotionTrack, ACreepDoesNotDependOnTheStepLength) {
     const std::array models = {MotionModel{MotionModel::Kind::Creep, 0.0125, 0.45}};
     const MotionTrack start({models, 0.0003, 0.065, 2.0, 0.0});
     for (const double length_s : {1e-3, 1.0 / 60.0, 0.25, 2.0}) {
@@ -126,7 +126,7 @@ TEST(MotionTrack, ACreepDoesNotDependOnHowItsTimeIsCut) {
     }
 }
 
-TEST(PoseEstimator, AnswersExactInterpolatedPredictedAndStale) {
+TEST(PoseEstimator, ReportsExactInterpolatedPredictedAndStale) {
     PoseEstimator estimator = glide_estimator();
     EXPECT_EQ(estimator.at(at_us(0)).status, PoseStatus::Stale);
     EXPECT_EQ(estimator.at(at_us(0)).reinitialisations, 0U);
@@ -175,7 +175,7 @@ TEST(PoseEstimator, ATrackerOfOneSampleASecondIsSlowAndNotStale) {
     EXPECT_EQ(estimator.at(at_us(63'010'000 + 1'100'000)).status, PoseStatus::Stale);
 }
 
-TEST(PoseEstimator, ForgetsTheOldestSamplesAndSaysSo) {
+TEST(PoseEstimator, ForgetsTheOldestSamplesAndReportsThemStale) {
     PoseEstimator estimator = glide_estimator();
     const auto count = static_cast<std::int64_t>(PoseEstimator::remembered) + 10;
     for (std::int64_t k = 0; k < count; ++k) {
@@ -207,7 +207,7 @@ TEST(PoseEstimator, IsStableForStepsFromAMicrosecondToTenSeconds) {
     }
 }
 
-TEST(PoseEstimator, TakesStepsOfAllLengthsMixed) {
+TEST(PoseEstimator, AcceptsMixedStepLengths) {
     PoseEstimator estimator = exhibit_estimator();
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> power(0.0, 7.0);
@@ -222,7 +222,7 @@ TEST(PoseEstimator, TakesStepsOfAllLengthsMixed) {
     }
 }
 
-TEST(PoseEstimator, SurvivesDuplicatesAndSamplesOutOfOrder) {
+TEST(PoseEstimator, RejectsDuplicateAndLateSamples) {
     PoseEstimator tidy = exhibit_estimator();
     PoseEstimator untidy = exhibit_estimator();
     SteadyMotion motion;
@@ -241,7 +241,7 @@ TEST(PoseEstimator, SurvivesDuplicatesAndSamplesOutOfOrder) {
     EXPECT_EQ(a.pose.rotation, b.pose.rotation);
 }
 
-TEST(PoseEstimator, TakesQuaternionsOfAnySignAndLength) {
+TEST(PoseEstimator, AcceptsQuaternionsOfAnySignAndLength) {
     PoseEstimator unit = exhibit_estimator();
     PoseEstimator odd = exhibit_estimator();
     SteadyMotion motion;
@@ -255,7 +255,7 @@ TEST(PoseEstimator, TakesQuaternionsOfAnySignAndLength) {
     EXPECT_LT(slip_m(off, 1.0), 1e-12);
 }
 
-TEST(PoseEstimator, RefusesWhatIsNoPose) {
+TEST(PoseEstimator, RejectsInvalidPoses) {
     PoseEstimator estimator = exhibit_estimator();
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinite = std::numeric_limits<double>::infinity();
@@ -272,7 +272,7 @@ TEST(PoseEstimator, RefusesWhatIsNoPose) {
     EXPECT_EQ(estimator.at(at_us(0)).pose.translation.x, 0.1);
 }
 
-TEST(PoseEstimator, LeavesOutliersOutAndBelievesThreeThatAgree) {
+TEST(PoseEstimator, IgnoresOutliersUntilThreeAgree) {
     PoseEstimator estimator = exhibit_estimator();
     for (int k = 0; k < 60; ++k) {
         EXPECT_EQ(estimator.take(at_us(k * 16'000), at_x(k % 10 == 9 ? 1.0 + 0.3 * k : 0.001)),
@@ -287,7 +287,7 @@ TEST(PoseEstimator, LeavesOutliersOutAndBelievesThreeThatAgree) {
     EXPECT_EQ(estimator.at(at_us(62 * 16'000)).pose.translation.x, 0.5);
 }
 
-TEST(PoseEstimator, TakesUpADeviceWhoseClockWasSetBack) {
+TEST(PoseEstimator, RestartsIfTheDeviceClockIsSetBack) {
     PoseEstimator estimator = exhibit_estimator();
     estimator.take(at_us(3'600'000'000), at_x(0.1));
     Taken last = Taken::Late;

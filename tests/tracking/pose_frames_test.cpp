@@ -14,7 +14,7 @@ tracker::PoseSample row(std::int64_t t_us, int station, double x, bool ok = true
     return sample;
 }
 
-TEST(PoseFrames, AreOneForEveryTimeOfThePropAscending) {
+TEST(PoseFrames, OneFramePerPropTimeInAscendingOrder) {
     const std::vector<tracker::PoseSample> rows{row(20, 1, 2), row(10, 1, 1), row(20, 1, 9), row(15, 2, 7),
                                                 row(30, 1, 3)};
     const auto frames = pose_frames(rows, {0, -1, 1});
@@ -27,7 +27,7 @@ TEST(PoseFrames, AreOneForEveryTimeOfThePropAscending) {
     }
 }
 
-TEST(PoseFrames, TakeTheEyeOfTheSameTimeWhereverItStands) {
+TEST(PoseFrames, TheEyeIsTakenFromTheSameTimeInAnyRowOrder) {
     const std::vector<tracker::PoseSample> rows{row(10, 2, 5), row(20, 1, 0), row(10, 1, 0), row(20, 2, 6),
                                                 row(20, 3, 8)};
     const auto frames = pose_frames(rows, {0, -1, 1});

@@ -18,7 +18,7 @@ exact_pose::Vector some_axis(std::mt19937_64& random) {
     return axis;
 }
 
-TEST(PoseMath, RotationVectorsGoThereAndBackAtEveryAngle) {
+TEST(PoseMath, RotationVectorsRoundTripAtEveryAngle) {
     std::mt19937_64 random(3);
     for (const long double angle : {1e-300L, 1e-12L, 1e-9L, 1e-8L, 1e-7L, 1e-3L, 1.0L, 3.0L, 3.14159265L}) {
         const exact_pose::Vector axis = some_axis(random);
@@ -50,7 +50,7 @@ TEST(PoseMath, BetweenIsTheExactSlerpAndAStraightLine) {
     }
 }
 
-TEST(PoseMath, SlipIsTheWayOfAPointAtTheLeverAtMost) {
+TEST(PoseMath, SlipBoundsTheMotionOfAPointAtTheLever) {
     const geometry::RigidTransform pose{rotation_of({0.1, 0.2, 0.3}), {0.1, 0.0, 0.0}};
     const PoseStep step{{0.001, 0.0, 0.0}, {0.0, 0.002, 0.0}};
     const geometry::RigidTransform other = moved(pose, step);

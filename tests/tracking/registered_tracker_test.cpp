@@ -33,7 +33,7 @@ private:
 /// The device's +Z points down; its origin is 0.3 m above the table.
 const geometry::RigidTransform table_from_tracker{glm::dquat(0, 1, 0, 0), {0, 0, 0.3}};
 
-TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
+TEST(RegisteredTracker, TransformsEachSampleToTheTableOnce) {
     RegisteredTracker tracker(std::make_unique<FakeTracker>(false), {table_from_tracker});
     EXPECT_TRUE(tracker.reports_table_frame());
     ASSERT_TRUE(tracker.registration());
@@ -52,7 +52,7 @@ TEST(RegisteredTracker, PlacesWhatADeviceReportsInItsOwnFrameAndNoSampleTwice) {
 
 /// The prop's origin is 0.05 m below its sensor, rotated a quarter about Z; the eye is 0.1 m in front of the
 /// head's sensor.
-TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
+TEST(RegisteredTracker, AppliesTheSensorsOffsets) {
     const double half = std::sqrt(0.5);
     const glm::dquat quarter(half, 0, 0, half);
     const geometry::Registration registration{.table_from_tracker = {{1, 0, 0, 0}, {0, 0, 1.0}},
@@ -78,7 +78,7 @@ TEST(RegisteredTracker, KnowsWhereTheSensorsSitInThePropAndOnTheHead) {
 
 /// However the sensor is turned on the glasses, the head's +X is the direction from the left eye to the right one, and the point
 /// between the eyes stays where it is.
-TEST(RegisteredTracker, TurnsTheHeadByWhereTheRightEyeIsInTheSensor) {
+TEST(RegisteredTracker, TurnsTheHeadByTheDirectionToTheRightEye) {
     const glm::dquat sensor = glm::normalize(glm::dquat(0.3, -0.5, 0.7, 0.2));
     const glm::dvec3 eye(0.02, -0.01, 0.05);
     for (const glm::dvec3& right :
@@ -104,7 +104,7 @@ TEST(RegisteredTracker, TurnsTheHeadByWhereTheRightEyeIsInTheSensor) {
     }
 }
 
-TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {
+TEST(RegisteredTracker, PassesThroughTableCoordinates) {
     RegisteredTracker tracker(std::make_unique<FakeTracker>(true), {table_from_tracker});
     EXPECT_FALSE(tracker.registration());
     std::vector<tracker::PoseSample> samples;
@@ -113,7 +113,7 @@ TEST(RegisteredTracker, HandsOnWhatIsInTableCoordinates) {
     EXPECT_EQ(samples[0].position_m, glm::dvec3(0.1, 0.2, 0.3));
 }
 
-TEST(RegisteredTracker, IsOtherwiseItsDevice) {
+TEST(RegisteredTracker, ForwardsTheDevicesOtherProperties) {
     const RegisteredTracker tracker(std::make_unique<FakeTracker>(false), {table_from_tracker});
     EXPECT_EQ(tracker.name(), "fake");
     EXPECT_EQ(tracker.state(), "the fake is well");

@@ -20,7 +20,7 @@ MonotonicTime at(int ms) {
     return MonotonicTime(milliseconds(ms));
 }
 
-TEST(SeenHead, IsTheEyeUntilASensorSaysMore) {
+TEST(SeenHead, SetsTheEyeUntilAHeadSensorReports) {
     LiveTrackedState live(default_eye, lever_m);
     EXPECT_EQ(live.at(at(0)).eye_m, default_eye);
     int ms = 1000;
@@ -48,7 +48,7 @@ TEST(SeenHead, IsTheEyeUntilASensorSaysMore) {
 }
 
 /// The visitor has left: after a second the picture returns to the default eye, without a jump.
-TEST(SeenHead, WhoGoesLeavesTheDefaultEyeWithoutAJump) {
+TEST(SeenHead, TheEyeReturnsToTheDefaultWithoutAJump) {
     LiveTrackedState live(default_eye, lever_m);
     glm::dvec3 before = default_eye;
     double farthest = 0.0;
@@ -65,7 +65,7 @@ TEST(SeenHead, WhoGoesLeavesTheDefaultEyeWithoutAJump) {
     EXPECT_LT(farthest, 0.04); // 0.4 m within a quarter of a second
 }
 
-TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
+TEST(SeenHead, TheEyeFollowsTheVisitorNearestToTheProp) {
     LiveTrackedState live(default_eye, lever_m);
     tracker::PoseSample prop;
     const auto step = [&](int ms, double x) {
@@ -95,7 +95,7 @@ TEST(SeenHead, ThePictureTurnsToWhoIsNearestToTheProp) {
     EXPECT_LT(glm::distance(eye, right), 0.12);
 }
 
-TEST(ActiveVisitor, OneWhoHasGoneGivesWayAtOnce) {
+TEST(ActiveVisitor, ChangesAtOnceIfTheActiveOneHasLeft) {
     ActiveVisitor active_visitor;
     const glm::dvec3 prop(0.0);
     EXPECT_TRUE(active_visitor.see(head(1, 1000, left), prop));
@@ -106,7 +106,7 @@ TEST(ActiveVisitor, OneWhoHasGoneGivesWayAtOnce) {
     EXPECT_EQ(active_visitor.person(), 2U);
 }
 
-TEST(ActiveVisitor, AShortStepNearerIsNoChange) {
+TEST(ActiveVisitor, IgnoresAShortStepNearer) {
     ActiveVisitor active_visitor;
     const glm::dvec3 prop(0.0);
     int ms = 1000;

@@ -44,7 +44,7 @@ MonotonicTime fill(SignalMeter& meter, double hz, Nanoseconds length, double sd_
 }
 
 /// Three axes of `sd` are sqrt(3) of it in all; 240 samples tell it to some 3 %.
-TEST(SignalMeter, FindsTheNoiseThatWasPutIn) {
+TEST(SignalMeter, MeasuresTheAddedNoise) {
     SignalMeter meter;
     const MonotonicTime now = fill(meter, 240.0, seconds(3), 0.1, 0.02);
     const TrackerSignal signal = meter.at(now);
@@ -55,14 +55,14 @@ TEST(SignalMeter, FindsTheNoiseThatWasPutIn) {
     EXPECT_NEAR(*signal.noise_deg, 0.02 * std::sqrt(3.0), 0.1 * 0.02 * std::sqrt(3.0));
 }
 
-TEST(SignalMeter, WhatLiesStillHasNone) {
+TEST(SignalMeter, ReportsNoNoiseForAStillSensor) {
     SignalMeter meter;
     const TrackerSignal signal = meter.at(fill(meter, 60.0, seconds(2), 0.0, 0.0));
     EXPECT_NEAR(*signal.noise_mm, 0.0, 1e-9);
     EXPECT_NEAR(*signal.noise_deg, 0.0, 1e-5);
 }
 
-TEST(SignalMeter, PosesThatCannotBeUsedAreCountedAndNoNoise) {
+TEST(SignalMeter, UnusablePosesAreCountedButNotAsNoise) {
     SignalMeter meter;
     const TrackerSignal signal = meter.at(fill(meter, 100.0, seconds(2), 0.05, 0.01, 4));
     EXPECT_NEAR(signal.rate_hz, 100.0, 1.5);
@@ -70,7 +70,7 @@ TEST(SignalMeter, PosesThatCannotBeUsedAreCountedAndNoNoise) {
     EXPECT_LT(*signal.noise_mm, 0.15);
 }
 
-TEST(SignalMeter, WhereNothingComesAnyMoreItSaysSoWithinASecond) {
+TEST(SignalMeter, ReportsNoSignalAfterASecondWithoutSamples) {
     SignalMeter meter;
     EXPECT_EQ(meter.at(start), TrackerSignal{});
     const MonotonicTime now = fill(meter, 120.0, seconds(2), 0.1, 0.01);
@@ -79,7 +79,7 @@ TEST(SignalMeter, WhereNothingComesAnyMoreItSaysSoWithinASecond) {
 }
 
 /// Faster than it has room for: the latest count, and none is counted twice.
-TEST(SignalMeter, AFasterTrackerFillsItAndNoMore) {
+TEST(SignalMeter, AFasterTrackerIsLimitedToTheMaxSamples) {
     SignalMeter meter;
     const TrackerSignal signal = meter.at(fill(meter, 2000.0, seconds(2), 0.1, 0.01));
     EXPECT_EQ(signal.rate_hz, static_cast<double>(SignalMeter::max_samples));

@@ -32,7 +32,7 @@ SourcePose never() {
     return one;
 }
 
-TEST(SourceArbiter, OneTrackerAloneIsHandedOnAsItIs) {
+TEST(SourceArbiter, PassesThroughASingleTracker) {
     SourceArbiter source_arbiter;
     for (int ms = 0; ms < 3000; ms += 16) {
         const SourcePose tracker = source(1e-4 * ms, 0.05 + 1e-3 * ms, milliseconds(ms));
@@ -43,7 +43,7 @@ TEST(SourceArbiter, OneTrackerAloneIsHandedOnAsItIs) {
     EXPECT_EQ(source_arbiter.changes(), 0U);
 }
 
-TEST(SourceArbiter, TwoThatAreAlikeDoNotTakeTurns) {
+TEST(SourceArbiter, DoesNotAlternateBetweenSimilarSources) {
     SourceArbiter source_arbiter;
     for (int ms = 0; ms < 20'000; ms += 16) {
         const double wave = 0.001 * (1.0 + 0.35 * std::sin(0.01 * ms));
@@ -53,7 +53,7 @@ TEST(SourceArbiter, TwoThatAreAlikeDoNotTakeTurns) {
     EXPECT_EQ(source_arbiter.leader(), Source::Tracker);
 }
 
-TEST(SourceArbiter, ItTakesClearlyLessSpreadForHalfASecond) {
+TEST(SourceArbiter, ChangesAfterHalfASecondOfClearlyLessSpread) {
     SourceArbiter source_arbiter;
     for (int ms = 0; ms < 4000; ms += 10) {
         const bool worse = ms % 1000 < 490 || ms >= 3000; // in bursts that are too short, then permanently
@@ -84,7 +84,7 @@ TEST(SourceArbiter, ADisagreementFadesAtABoundedRate) {
 }
 
 /// A change back in the middle of a fade does not jump either.
-TEST(SourceArbiter, AChangeInTheMiddleOfAChangeGoesOnFromThere) {
+TEST(SourceArbiter, AChangeDuringAFadeDoesNotJump) {
     SourceArbiter source_arbiter;
     (void)source_arbiter.follow(source(0.0, 0.001), source(0.01, 0.0015), at(0));
     double before = 0.0;
@@ -120,7 +120,7 @@ TEST(SourceArbiter, TheFadeDoesNotDependOnTheFrameRate) {
     }
 }
 
-TEST(SourceArbiter, FromAStalePoseItBeginsAnew) {
+TEST(SourceArbiter, RestartsAfterAStalePose) {
     SourceArbiter source_arbiter;
     const PoseEstimate before = source_arbiter.follow(source(0.0, 0.001), never(), at(0));
     (void)source_arbiter.follow(source(0.0, 0.001, milliseconds(2000)), never(), at(2000));
@@ -130,7 +130,7 @@ TEST(SourceArbiter, FromAStalePoseItBeginsAnew) {
     EXPECT_GT(found.reinitialisations, before.reinitialisations);
 }
 
-TEST(SourceArbiter, TimeThatGoesBackChangesNoLead) {
+TEST(SourceArbiter, TimeThatGoesBackDoesNotChangeTheLeader) {
     SourceArbiter source_arbiter;
     for (int ms = 5000; ms > 0; ms -= 10) {
         (void)source_arbiter.follow(source(0.0, 0.006), source(0.0, 0.001), at(ms));

@@ -98,7 +98,7 @@ double lag_ms(PoseFilter& filter, double rate_hz) {
     return 1e3 * sum / count;
 }
 
-TEST(SteadyFilter, LeavesLessOfATremorThanThePropsFilterAndLagsLessThanAFrame) {
+TEST(SteadyFilter, ReducesTremorAndLagsLessThanAFrame) {
     for (const double rate_hz : {30.0, 60.0, 120.0, 240.0}) {
         SteadyFilter steady, steady_sweeps;
         HeldFilter held(PoseNoise{}, 0.06);
@@ -109,7 +109,7 @@ TEST(SteadyFilter, LeavesLessOfATremorThanThePropsFilterAndLagsLessThanAFrame) {
     }
 }
 
-TEST(SteadyFilter, ComesToThePlaceThatIsPointedAt) {
+TEST(SteadyFilter, ConvergesToTheTarget) {
     SteadyFilter filter;
     const geometry::RigidTransform from{glm::dquat(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, throw_m}};
     const geometry::RigidTransform to = moved(from, {{0.1, -0.05, 0.02}, {0.3, 0.1, 0.5}});

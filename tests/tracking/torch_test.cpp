@@ -23,7 +23,7 @@ geometry::RigidTransform torch(double height_m, double descends_deg, double x_m 
             {x_m, -0.3, height_m}};
 }
 
-TEST(TorchOfTheTests, PointsWhereItSays) {
+TEST(TorchHelper, PointsInTheGivenDirection) {
     EXPECT_LT(glm::distance(torch(0.1, 0.0).direction({0, 0, 1}), glm::dvec3(0, 1, 0)), 1e-12);
     EXPECT_LT(glm::distance(torch(0.1, 90.0).direction({0, 0, 1}), glm::dvec3(0, 0, -1)), 1e-12);
 }
@@ -44,13 +44,13 @@ private:
     MonotonicTime now_{};
 };
 
-TEST(TorchShare, IsNoneUntilTheTorchIsTaken) {
+TEST(TorchShare, IsZeroUntilTheTorchIsTaken) {
     Shares shares;
     EXPECT_EQ(shares.after(10.0, torch(0.02, 45.0)), 0.0); // it lies, however it points
     EXPECT_EQ(shares.after(0.4, torch(0.02, 45.0, 0.02)), 1.0);
 }
 
-TEST(TorchShare, GoesSoftlyWhenItIsLaidDownAndComesBackSoftly) {
+TEST(TorchShare, FadesOutWhenLaidDownAndFadesInWhenTaken) {
     Shares shares;
     (void)shares.after(0.1, torch(0.3, 45.0));
     EXPECT_EQ(shares.after(0.5, torch(0.3, 45.0, 0.1)), 1.0);
@@ -64,13 +64,13 @@ TEST(TorchShare, GoesSoftlyWhenItIsLaidDownAndComesBackSoftly) {
     EXPECT_EQ(shares.after(0.3, torch(0.1, 40.0)), 1.0);
 }
 
-TEST(TorchShare, StaysWhileItPointsDownAtSomethingHoweverStill) {
+TEST(TorchShare, StaysWhileATorchPointsDownWithoutMoving) {
     Shares shares;
     (void)shares.after(0.1, torch(0.3, 45.0));
     EXPECT_EQ(shares.after(60.0, torch(0.3, 45.0, 0.1)), 1.0);
 }
 
-TEST(TorchShare, StaysInAHandThatRestsWhilePointingAcross) {
+TEST(TorchShare, StaysWhileAHandHoldsItStillPointingAcross) {
     TorchShare share;
     MonotonicTime now{};
     double least = 1.0;
@@ -85,7 +85,7 @@ TEST(TorchShare, StaysInAHandThatRestsWhilePointingAcross) {
     EXPECT_EQ(least, 1.0);
 }
 
-TEST(TorchShare, GoesWhenTheTorchIsLostOrInItsHolder) {
+TEST(TorchShare, FadesOutIfTheTorchIsLostOrInItsHolder) {
     for (const std::optional<geometry::RigidTransform>& away :
          {std::optional<geometry::RigidTransform>{}, std::optional(torch(-0.05, 90.0))}) {
         Shares shares;
@@ -97,7 +97,7 @@ TEST(TorchShare, GoesWhenTheTorchIsLostOrInItsHolder) {
     }
 }
 
-TEST(TorchShare, NeverJumpsWhateverTheTorchDoes) {
+TEST(TorchShare, NeverJumps) {
     TorchShare share;
     MonotonicTime now{};
     double before = 0.0;
@@ -130,7 +130,7 @@ TEST(TorchTwist, DoublesAndHalvesTheOpeningBeyondTheDeadBand) {
     EXPECT_NEAR(twist.follow(twisted(held, -TorchTwist::dead_rad - TorchTwist::doubles_rad)), 0.25, 1e-9);
 }
 
-TEST(TorchTwist, TurnsBackAtOnceFromItsBounds) {
+TEST(TorchTwist, ReversesAtOnceFromItsBounds) {
     const glm::dquat held(1.0, 0.0, 0.0, 0.0);
     TorchTwist twist(bounds);
     twist.begin(held);
@@ -160,7 +160,7 @@ TEST(TorchTwist, DoesNotDriftWhileTheHandPointsAbout) {
     EXPECT_GT(std::fabs(summed), 20.0); // rad: what a sum would have made of it
 }
 
-TEST(TorchTwist, GoesOnThroughFullTurnsAndThroughAReversal) {
+TEST(TorchTwist, ContinuesThroughFullTurnsAndHoldsIfUndefined) {
     const TwistBounds wide{.usual_rad = 0.5, .min_rad = 1e-3, .max_rad = 3.0};
     const glm::dquat held(1.0, 0.0, 0.0, 0.0);
     TorchTwist twist(wide);
@@ -192,7 +192,7 @@ TrackedState waved(LiveTrackedState& state, int station) {
     return at;
 }
 
-TEST(LiveTrackedTorch, IsStationThreeWhereTheSettingsHaveOne) {
+TEST(LiveTrackedTorch, IsStationThreeIfEnabled) {
     LiveTrackedState with({0.0, -0.5, 0.5}, 0.06, {}, PropMotion::OnTable, {.tracker = true});
     const TrackedState state = waved(with, tracker::torch_station);
     EXPECT_EQ(state.torches[0].share, 1.0);
@@ -208,7 +208,7 @@ TEST(LiveTrackedTorch, IsStationThreeWhereTheSettingsHaveOne) {
     EXPECT_EQ(waved(other, 4).torches[0].share, 0.0);
 }
 
-TEST(LiveTrackedTorch, IsALampThatACameraSees) {
+TEST(LiveTrackedTorch, FollowsALampSeenByTheCamera) {
     LiveTrackedState state({0.0, -0.5, 0.5}, 0.06, {}, PropMotion::OnTable, {.camera = true});
     MonotonicTime now{};
     TrackedState at;
@@ -246,7 +246,7 @@ TEST(LiveTrackedTorch, AllocatesNothing) {
     EXPECT_EQ(synthetic::allocations_so_far(), before);
 }
 
-TEST(TrackedStateTracker, TakesTheTorchAsItIs) {
+TEST(TrackedStateTracker, UsesTheTorchPoseUnfiltered) {
     TrackedStateTracker state({0.0, -0.5, 0.5});
     const MonotonicTime now{std::chrono::seconds(5)};
     EXPECT_TRUE(state.take(sample_of(torch(0.3, 40.0), now, tracker::torch_station)));

@@ -16,7 +16,7 @@ tracker::PoseSample sample_at(std::int64_t t_us, int station, const glm::dvec3& 
     return sample;
 }
 
-TEST(TrackedState, KnowsNothingAtFirstButTheDefaultEye) {
+TEST(TrackedState, StartsWithTheDefaultEyeOnly) {
     const TrackedStateTracker tracker(default_eye);
     const TrackedState tracked_state = tracker.at(from_microseconds(7));
     EXPECT_FALSE(tracked_state.prop_known);

@@ -66,7 +66,7 @@ void expect_eyes(const TrackedState& state, const glm::dvec3& middle_m, const gl
 }
 
 /// A head that is turned by a quarter to the left, and one that leans to its right shoulder by 30 degrees.
-TEST(TwoEyesOffline, AreTurnedAsTheHeadsRowSays) {
+TEST(TwoEyesOffline, FollowTheHeadsRotation) {
     const double half = std::sqrt(0.5);
     const glm::dquat quarter(3.0 * half, 0.0, 0.0, 3.0 * half); // not of unit length
     const glm::dquat lean = glm::angleAxis(glm::radians(30.0), glm::dvec3(0, 1, 0));
@@ -124,7 +124,7 @@ void watch(double rate_hz, double length_s, const Noise& noise, const Way& way,
 const geometry::RigidTransform on_the_table{rotation_of({0.02, 0.01, 0.7}), {0.3, -0.2, 0.02}};
 
 /// Glasses that were never taken up lie from a few seconds on, for as long as nobody touches them.
-TEST(TwoEyesLive, OfGlassesThatLieAreOneForMinutes) {
+TEST(TwoEyesLive, MergeForGlassesThatLieOnTheTable) {
     for (const double rate_hz : {30.0, 60.0, 120.0, 240.0}) {
         for (const unsigned seed : {1U, 2U, 3U}) {
             double apart_s = 0.0;
@@ -176,7 +176,7 @@ private:
 
 /// One stands, one sits and leans on the table, and one of them holds the breath. Half a millimetre of sway and a third of a degree
 /// are far below what people can hold.
-TEST(TwoEyesLive, OfALivingHeadStayTwoHoweverStillItIsHeld) {
+TEST(TwoEyesLive, StayApartOnAHeadHeldStill) {
     struct Case {
         double sway_m, turn_rad, breath_m;
     };
@@ -227,7 +227,7 @@ TEST(TwoEyesLive, FollowGlassesThatArePutDownAndTakenUp) {
 }
 
 /// Gaps of a fifth of a second, in which the filter keeps its pose, change nothing; a loss brings one eye, and a return two.
-TEST(TwoEyesLive, OutlastShortGapsAndGoWithTheSensor) {
+TEST(TwoEyesLive, OutlastShortGapsAndMergeIfTheSensorIsLost) {
     const auto with_gaps = [](double t_s) {
         return std::fmod(t_s, 3.0) < 0.2 ? std::nullopt : std::optional(on_the_table);
     };
@@ -298,7 +298,7 @@ TEST(TwoEyesLive, ChangeNeitherPropNorEye) {
     EXPECT_GT(compared, 1000);
 }
 
-TEST(TwoEyesLive, OfAFixedViewerLookAtThePropFromTheFirstPicture) {
+TEST(TwoEyesLive, FaceThePropForAFixedViewer) {
     LiveTrackedState live(default_eye, lever_m, {.half_apart_m = half_apart_m, .fixed_viewer = true});
     TrackedState state = live.at(at_s(0));
     EXPECT_EQ(state.eyes_apart, 1.0);
@@ -313,7 +313,7 @@ TEST(TwoEyesLive, OfAFixedViewerLookAtThePropFromTheFirstPicture) {
         0.00005 / half_apart_m + 1e-4);
 }
 
-TEST(TwoEyesLive, OfASeenHeadLookAtTheProp) {
+TEST(TwoEyesLive, FaceThePropForASeenHead) {
     LiveTrackedState live(default_eye, lever_m, with_sensor);
     EXPECT_EQ(live.at(at_s(0)).eyes_apart, 0.0) << "nobody is known";
     TrackedState state;
@@ -359,7 +359,7 @@ std::vector<tracker::PoseSample> recorded(const std::filesystem::path& file) {
 
 /// Real trackers' noise, which is what a recorded hand's poses differ from the mean of their neighbours, on glasses that lie; and the
 /// hands themselves, which hold their objects as still as hands can.
-TEST(TwoEyesLive, TellTheNoiseOfRealTrackersFromRealHands) {
+TEST(TwoEyesLive, DistinguishRecordedNoiseFromRecordedHands) {
     const std::filesystem::path folder = std::filesystem::path(shared_dir()) / "data/tracker";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "no recordings in " << folder;

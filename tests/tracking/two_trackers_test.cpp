@@ -106,7 +106,7 @@ Told told(const Story& story, std::uint64_t seed = 1) {
 /// 20 mm/s at 60 pictures per second are 0.33 mm; the filtered noise at rest is far below.
 constexpr double max_step_mm = 0.6;
 
-TEST(TwoTrackers, AloneAndWellTheTrackerLeads) {
+TEST(TwoTrackers, TheTrackerLeadsWhileItIsWell) {
     for (const auto& truth : {at_rest, slid}) {
         EXPECT_TRUE(told({.truth = truth, .tags_off_m = {0.005, 0.0, 0.0}}).leads.empty());
     }
@@ -125,7 +125,7 @@ TEST(TwoTrackers, TagsTakeOverALostTrackerAndHandItBackWithoutAJump) {
     EXPECT_LT(rest.last_off_mm, 0.7);
 }
 
-TEST(TwoTrackers, AMovingPropIsFollowedOn) {
+TEST(TwoTrackers, TagsFollowAMovingPropIfTheTrackerIsLost) {
     const Story story{.truth = slid, .tracker_sends = [](double t) { return t < 2.0 || t > 5.0; }};
     const Story without{
         .truth = slid, .tracker_sends = story.tracker_sends, .tags_seen = [](double) { return false; }};
@@ -136,7 +136,7 @@ TEST(TwoTrackers, AMovingPropIsFollowedOn) {
 }
 
 /// The field's distortion grows, and the tracker reports it from 3 mm on.
-TEST(TwoTrackers, MetalThatComesNearHandsOverToTheTags) {
+TEST(TwoTrackers, ReportedMetalHandsOverToTheTags) {
     for (const double m_s : {0.0005, 0.001}) {
         const double told_s = 2.0 + 0.003 / m_s;
         const auto bend = [m_s](double t) {
@@ -154,7 +154,7 @@ TEST(TwoTrackers, MetalThatComesNearHandsOverToTheTags) {
     }
 }
 
-TEST(TwoTrackers, MetalThatComesAndGoesDoesNotMakeThemTakeTurns) {
+TEST(TwoTrackers, IntermittentMetalDoesNotChangeTheLead) {
     const Told often = told({.truth = at_rest,
                              .metal_is_told = [](double t) { return std::fmod(t, 0.6) < 0.3; },
                              .tags_off_m = {0.003, 0.0, 0.0}});
@@ -174,7 +174,7 @@ TEST(TwoTrackers, CoveredTagsGiveTheLeadBack) {
 
 /// Both are lost: the pose is held, then unknown; the tags find the prop elsewhere and the picture glides
 /// there.
-TEST(TwoTrackers, BothLostAndFoundElsewhere) {
+TEST(TwoTrackers, FindsThePropElsewhereAfterBothWereLost) {
     const auto truth = [](double t) {
         return geometry::RigidTransform{{1.0, 0.0, 0.0, 0.0}, {t < 3.0 ? 0.0 : 0.1, 0.0, 0.0}};
     };

@@ -24,7 +24,7 @@ MonotonicTime at(int ms) {
     return MonotonicTime(milliseconds(ms));
 }
 
-TEST(WornGlasses, LieOnceTheyHaveBeenStillForAWhileWhateverTheRhythm) {
+TEST(WornGlasses, LieAfterBeingStillAtAnySampleRate) {
     constexpr int still_ms = 6000;
     static_assert(WornGlasses::still_for == milliseconds(still_ms));
     for (const int step_ms : {1, 8, 16, 33, 250}) {
@@ -39,7 +39,7 @@ TEST(WornGlasses, LieOnceTheyHaveBeenStillForAWhileWhateverTheRhythm) {
 }
 
 /// The movement counts at `lever_m` from the sensor: a shift as it is, a turn times the lever.
-TEST(WornGlasses, MoveByMoreThanASensorsNoiseOrStayWhereTheyAre) {
+TEST(WornGlasses, OnlyMovesBeyondTheThresholdCount) {
     constexpr double within = 0.999;
     constexpr double beyond = 1.001;
     const double shift = WornGlasses::still_m;
@@ -62,7 +62,7 @@ TEST(WornGlasses, MoveByMoreThanASensorsNoiseOrStayWhereTheyAre) {
 }
 
 /// A slow drift of the tracker's field, 0.3 mm in a minute, is no movement; a slow movement is one.
-TEST(WornGlasses, AreTakenUpSlowlyToo) {
+TEST(WornGlasses, SlowMovesCountButDriftDoesNot) {
     for (const auto& [m_per_s, lies] : {std::pair{0.3e-3 / 60.0, true}, {0.3e-3, false}}) {
         WornGlasses glasses;
         bool worn = true;
@@ -73,7 +73,7 @@ TEST(WornGlasses, AreTakenUpSlowlyToo) {
     }
 }
 
-TEST(WornGlasses, BeginAnewAfterALoss) {
+TEST(WornGlasses, RestartAfterALoss) {
     WornGlasses glasses;
     static_cast<void>(glasses.worn(at(0), placed(0.0)));
     EXPECT_FALSE(glasses.worn(at(7000), placed(0.0)));
@@ -83,7 +83,7 @@ TEST(WornGlasses, BeginAnewAfterALoss) {
 }
 
 /// The closed form: a smooth step of half a second, from whichever end it begins.
-TEST(EyesApart, GoSoftlyFromOneEyeToTwoAndBackAtAnyRhythm) {
+TEST(EyesApart, BlendSmoothlyAtAnyStepLength) {
     for (const bool both : {true, false}) {
         for (const int step_ms : {1, 4, 10, 20, 50, 125, 500}) {
             EyesApart eyes(!both);
@@ -98,7 +98,7 @@ TEST(EyesApart, GoSoftlyFromOneEyeToTwoAndBackAtAnyRhythm) {
     }
 }
 
-TEST(EyesApart, TurnRoundOnTheWayWithoutAJump) {
+TEST(EyesApart, ReverseDuringABlendWithoutAJump) {
     constexpr double steepest = 1.5 / 500.0; // of a smooth step, each millisecond
     EyesApart eyes(true);
     double before = eyes.follow(at(0), true);
@@ -114,7 +114,7 @@ TEST(EyesApart, TurnRoundOnTheWayWithoutAJump) {
     EXPECT_EQ(before, 1.0);
 }
 
-TEST(EyesApart, ATimeThatGoesBackMovesNothing) {
+TEST(EyesApart, IgnoreATimeThatGoesBack) {
     EyesApart eyes(false);
     static_cast<void>(eyes.follow(at(1000), true));
     const double share = eyes.follow(at(1200), true);

@@ -81,7 +81,7 @@ private:
     double t_s_ = 0.0;
 };
 
-TEST(Background, KnowsAThingThatComes) {
+TEST(Background, DetectsAnObjectThatAppears) {
     Watch watch;
     EXPECT_EQ(watch.look(2.0), 0);
     watch.wall.thing = {20, 5, 40, 30};
@@ -89,7 +89,7 @@ TEST(Background, KnowsAThingThatComes) {
     EXPECT_EQ(watch.background.beginnings(), 1);
 }
 
-TEST(Background, SomebodyIsNeverLearntAndAThingIs) {
+TEST(Background, LearnsObjectsButNoPeople) {
     Watch watch;
     static_cast<void>(watch.look(2.0));
     watch.wall.thing = {20, 5, 40, 30};
@@ -100,7 +100,7 @@ TEST(Background, SomebodyIsNeverLearntAndAThingIs) {
 }
 
 /// Otherwise a blot remains that resembles a head, and is taken for a person who stands still.
-TEST(Background, WhoPassesLeavesNoTraceAndIsSeenAgain) {
+TEST(Background, DetectsPassersRepeatedlyWithoutTraces) {
     Watch watch;
     watch.changes = true;
     static_cast<void>(watch.look(20.0));
@@ -114,7 +114,7 @@ TEST(Background, WhoPassesLeavesNoTraceAndIsSeenAgain) {
 }
 
 /// Movement in the picture on the prop cannot be explained by a share of the table's mean.
-TEST(Background, ThePropInThePictureIsNobody) {
+TEST(Background, IgnoresTheProp) {
     Watch watch;
     watch.changes = true;
     watch.wall.prop = {10, 12, 30, 30};
@@ -124,7 +124,7 @@ TEST(Background, ThePropInThePictureIsNobody) {
     EXPECT_EQ(watch.most, 0);
 }
 
-TEST(Background, DimmedLampsAreNobody) {
+TEST(Background, IgnoresDimmedLamps) {
     Watch watch;
     static_cast<void>(watch.look(2.0));
     for (watch.wall.lamps = 1.0; watch.wall.lamps > 0.5; watch.wall.lamps -= 0.01) {
@@ -136,7 +136,7 @@ TEST(Background, DimmedLampsAreNobody) {
 }
 
 /// Without the table in the same frames, the projector's light could not be identified.
-TEST(Background, TheProjectorsLightIsLearntAndTakenAway) {
+TEST(Background, LearnsAndRemovesTheLightOfTheProjector) {
     Watch watch;
     watch.changes = true;
     static_cast<void>(watch.look(30.0));
@@ -147,7 +147,7 @@ TEST(Background, TheProjectorsLightIsLearntAndTakenAway) {
     EXPECT_NEAR(static_cast<double>(watch.look(0.1)), 20.0 * 25.0, 20.0);
 }
 
-TEST(Background, BeginsAnewWhereAllChangesAtOnce) {
+TEST(Background, RestartsWhenEverythingChangesAtOnce) {
     Watch watch;
     static_cast<void>(watch.look(2.0));
     watch.wall.projector = 3.0; // a lamp elsewhere, which no gain explains

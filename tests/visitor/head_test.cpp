@@ -48,7 +48,7 @@ double degrees_off(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 /// The model's own shape, at different distortions of the lens.
-TEST(Head, AnUprightEllipsoidIsFoundWhereItIs) {
+TEST(Head, FindsAnUprightEllipsoid) {
     for (const glm::dvec3 place :
          {glm::dvec3(0.0, -0.4, 0.5), glm::dvec3(0.45, -0.5, 0.3), glm::dvec3(-0.5, -0.35, 0.7)}) {
         const auto heads =
@@ -62,7 +62,7 @@ TEST(Head, AnUprightEllipsoidIsFoundWhereItIs) {
 
 /// Heads that differ from the model: people of all builds, with hair, turned and bent, on shoulders, with
 /// arms.
-TEST(Head, TheEyeOfAPersonIsFound) {
+TEST(Head, FindsTheEyeOfAPerson) {
     std::mt19937_64 random(7);
     const glm::dvec3 prop(0.05, 0.0, 0.08);
     double squares = 0.0;
@@ -86,7 +86,7 @@ TEST(Head, TheEyeOfAPersonIsFound) {
     EXPECT_LT(std::sqrt(squares / people), 0.03);
 }
 
-TEST(Head, TwoWhoStandTooCloseToPartAreTwo) {
+TEST(Head, SeparatesTwoPeopleWhoStandClose) {
     std::mt19937_64 random(3);
     std::vector<simulators::Ball> both;
     for (const double x : {-0.14, 0.14}) {
@@ -98,7 +98,7 @@ TEST(Head, TwoWhoStandTooCloseToPartAreTwo) {
     EXPECT_EQ(heads_in(outline_of(both)).size(), 2U);
 }
 
-TEST(Head, WhatIsFarAwayOrAnArmIsNobody) {
+TEST(Head, IgnoresDistantPeopleAndArms) {
     std::mt19937_64 random(5);
     const simulators::Person person = simulators::any_person(simulators::Build::Adult, random);
     EXPECT_TRUE(
@@ -108,7 +108,7 @@ TEST(Head, WhatIsFarAwayOrAnArmIsNobody) {
     EXPECT_TRUE(heads_in(outline_of(arm)).empty());
 }
 
-TEST(Head, WhoLooksLowerBendsTheHead) {
+TEST(Head, LowersTheEyeWhenLookingDown) {
     const glm::dvec3 middle(0.0, -0.5, 0.5);
     const glm::dvec3 level = tracking::eye_of_head(middle, {0.0, 0.0, 0.5});
     EXPECT_GT(level.y, middle.y + 0.07);

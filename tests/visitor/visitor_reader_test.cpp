@@ -72,7 +72,7 @@ double free_of_charge() {
     return 0.0;
 }
 
-TEST(VisitorReader, SeesWhoComesAndWhoGoes) {
+TEST(VisitorReader, DetectsArrivalAndDeparture) {
     VisitorReader reader(set_up(), free_of_charge);
     Played played(reader);
     EXPECT_TRUE(played.play(false, 1.5, 30).empty());
@@ -87,7 +87,7 @@ TEST(VisitorReader, SeesWhoComesAndWhoGoes) {
     EXPECT_TRUE(played.play(false, 0.1, 30).empty());
 }
 
-TEST(VisitorReader, WhatDoesNotMoveForAMinuteIsAThing) {
+TEST(VisitorReader, IgnoresPeopleWhoDoNotMoveForAMinute) {
     VisitorReader reader(set_up(), free_of_charge);
     Played played(reader);
     static_cast<void>(played.play(false, 1.5, 5));
@@ -110,7 +110,7 @@ TEST(VisitorReader, TakesNoMoreThanATenthOfACore) {
     EXPECT_EQ(reader.counts().skipped, 95U);
 }
 
-TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {
+TEST(VisitorTracker, PassesHeadsFromTheCameraThreadAndReportsAWrongShape) {
     VisitorTracker tracker(set_up());
     std::vector<tracking::SeenHead> heads;
     std::jthread([&tracker] {
@@ -134,7 +134,7 @@ TEST(VisitorTracker, HeadsComeFromTheCamerasThreadAndAWrongShapeIsSaid) {
 }
 
 /// The whole chain: a person comes, walks in and stands, under a changing picture.
-TEST(VisitorRun, ThePictureTurnsToWhoeverComesAndStandsStill) {
+TEST(VisitorRun, TurnsThePictureToAnArrivingVisitor) {
     const simulators::Visit visit = simulators::run_visit({}, 5.0, 3);
     double worst_mm = 0.0;
     for (const simulators::VisitMoment& moment : visit.moments) {
@@ -152,7 +152,7 @@ TEST(VisitorRun, ThePictureTurnsToWhoeverComesAndStandsStill) {
 }
 
 /// The example that the page gives to technicians is accepted and equals the measured camera.
-TEST(VisitorSettings, ThePagesExampleIsTheCamera) {
+TEST(VisitorSettings, ExampleOfThePageEqualsTheCamera) {
     const std::string page = text_of(source_dir() + "/docs/visitor_eye.md");
     const std::size_t begin = page.find("```toml\n") + 8;
     const Result<settings::CheckedSettings> settings =

@@ -20,7 +20,7 @@ constexpr std::string_view whole = "frustumscreen-crash-1\n"
                                    "frame libc.so.6+0x89134\n"
                                    "end\n";
 
-TEST(Crash, IsReadAsItWasWritten) {
+TEST(Crash, ParsesACompleteFile) {
     const std::optional<Crash> crash = parse_crash(whole);
     ASSERT_TRUE(crash);
     EXPECT_EQ(crash->unix_s, 1700000000);
@@ -31,7 +31,7 @@ TEST(Crash, IsReadAsItWasWritten) {
     EXPECT_EQ(sentence_of(*crash), "SIGSEGV in swrast_dri.so+0x1f3a0, thread llvmpipe-0");
 }
 
-TEST(Crash, InCompiledCodeNamesWhoCalledIt) {
+TEST(Crash, NamesTheCallerOfCompiledCode) {
     const std::optional<Crash> crash =
         parse_crash("frustumscreen-crash-1\nsignal SIGSEGV\nthread llvmpipe-1\n"
                     "frame compiled+0x7f00\nguess swrast_dri.so+0x12\nend\n");
@@ -41,7 +41,7 @@ TEST(Crash, InCompiledCodeNamesWhoCalledIt) {
 }
 
 /// After a power cut the file is cut off anywhere: the remaining part is reported, or nothing.
-TEST(Crash, CutOffAnywhere) {
+TEST(Crash, ParsesATruncatedFileAsFarAsItGoes) {
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const std::optional<Crash> crash = parse_crash(whole.substr(0, length));
         EXPECT_EQ(crash.has_value(), length > whole.find("signal SIGSEGV") + 7) << length;
@@ -49,7 +49,7 @@ TEST(Crash, CutOffAnywhere) {
     }
 }
 
-TEST(Crash, OtherBytesAreNone) {
+TEST(Crash, RejectsOtherBytes) {
     EXPECT_FALSE(parse_crash(""));
     EXPECT_FALSE(parse_crash("signal SIGSEGV\n"));
     EXPECT_FALSE(parse_crash(std::string(4096, '\0')));
@@ -62,7 +62,7 @@ TEST(Crash, OtherBytesAreNone) {
 
 class CrashFolder : public WithTemporaryFolder {};
 
-TEST_F(CrashFolder, TheLatestIsTheFirst) {
+TEST_F(CrashFolder, ListsTheLatestFirst) {
     for (const auto& [number, at] : {std::pair(1, 30), std::pair(2, 50), std::pair(3, 40)}) {
         put(crash_file_name(number),
             "frustumscreen-crash-1\nunix_s " + std::to_string(at) + "\nsignal SIGBUS\nend\n");

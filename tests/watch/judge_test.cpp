@@ -50,19 +50,19 @@ struct Scene {
     }
 };
 
-TEST(Judge, AHealthyExhibit) {
+TEST(Judge, ReportsNothingForAHealthyExhibit) {
     Scene scene;
     scene.well(hours(3));
 }
 
-TEST(Judge, AsleepIsNotDark) {
+TEST(Judge, SleepingExhibitCountsAsLit) {
     Scene scene;
     scene.counts = false;
     scene.outcome.exhibit->asleep = true;
     scene.well(hours(1));
 }
 
-TEST(Judge, WhatTheLastProcessSaidIsNoLifeOfTheNextOne) {
+TEST(Judge, IgnoresTheStatusOfThePreviousProcess) {
     Scene scene;
     scene.well(minutes(2));
     scene.outcome.process = 0; // killed; its last status stays until the next process overwrites it
@@ -81,14 +81,14 @@ TEST(Judge, WhatTheLastProcessSaidIsNoLifeOfTheNextOne) {
     scene.well(minutes(2));
 }
 
-TEST(Judge, AFrozenPictureIsSeen) {
+TEST(Judge, DetectsAFrozenPicture) {
     Scene scene;
     scene.well(minutes(2));
     scene.counts = false;
     EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 20, 2); // fresh for 5 s, then a timeout of 15 s
 }
 
-TEST(Judge, AnOldStatusIsNoPicture) {
+TEST(Judge, ReportsNoPictureForAnOldOrMissingStatus) {
     Scene scene;
     scene.well(minutes(2));
     scene.outcome.exhibit->age = seconds(6);
@@ -99,7 +99,7 @@ TEST(Judge, AnOldStatusIsNoPicture) {
     EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 16, 2);
 }
 
-TEST(Judge, AStartTakesLonger) {
+TEST(Judge, AllowsMoreTimeForAStart) {
     Scene scene;
     scene.well(minutes(2));
     scene.outcome.process = 322; // systemd has restarted it
@@ -107,14 +107,14 @@ TEST(Judge, AStartTakesLonger) {
     EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 60, 2);
 }
 
-TEST(Judge, AProcessThatIsNotStartedIsSeen) {
+TEST(Judge, DetectsAProcessThatIsNotStarted) {
     Scene scene;
     scene.well(minutes(2));
     scene.outcome.process = 0;
     EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 16, 2);
 }
 
-TEST(Judge, OneEndIsNotThree) {
+TEST(Judge, IgnoresRareEnds) {
     Scene scene;
     for (int end = 0; end < 40; ++end) { // one every quarter of an hour
         scene.outcome.failures++;
@@ -128,7 +128,7 @@ TEST(Judge, OneEndIsNotThree) {
     }
 }
 
-TEST(Judge, ThreeEndsAreSeenAtOnce) {
+TEST(Judge, DetectsThreeEndsAtOnce) {
     Scene scene;
     scene.well(minutes(1));
     scene.outcome.exhibit.reset();
@@ -144,7 +144,7 @@ TEST(Judge, ThreeEndsAreSeenAtOnce) {
     EXPECT_NEAR(scene.trouble_after(Cause::NoPicture), 60, 2); // counting starts again
 }
 
-TEST(Judge, AnEndEachFiveMinutesIsSeenInTheEnd) {
+TEST(Judge, DetectsAnEndEveryFiveMinutes) {
     Scene scene;
     int ends = 0;
     for (std::optional<Cause> trouble; !trouble && ends < 20;) {
@@ -165,7 +165,7 @@ TEST(Judge, AnEndEachFiveMinutesIsSeenInTheEnd) {
     EXPECT_LE(ends, 6);
 }
 
-TEST(Judge, LesserTroublesMustLast) {
+TEST(Judge, ReportsLesserTroublesOnlyAfterADelay) {
     Scene scene;
     scene.outcome.exhibit->artifacts = 0;
     EXPECT_NEAR(scene.trouble_after(Cause::NothingToShow), 46, 2);
@@ -187,7 +187,7 @@ TEST(Judge, LesserTroublesMustLast) {
     }
 }
 
-TEST(Judge, AMachineThatStoodStillIsNotToBlame) {
+TEST(Judge, IgnoresTimeInWhichTheMachineWasSuspended) {
     Scene scene;
     scene.well(minutes(1));
     scene.outcome.exhibit->age = seconds(30); // the whole machine was suspended, including this judge
@@ -197,7 +197,7 @@ TEST(Judge, AMachineThatStoodStillIsNotToBlame) {
     scene.well(minutes(1));
 }
 
-TEST(Judge, TheSafePictureIsJudgedByItself) {
+TEST(Judge, JudgesTheSafePictureByItsFlips) {
     Scene scene;
     scene.mode = Mode::Safe;
     scene.outcome = {};

@@ -28,7 +28,7 @@ KeptMemory some_memory(std::uint64_t writes) {
     return kept;
 }
 
-TEST(LadderMemory, IsReadBack) {
+TEST(LadderMemory, RoundTrip) {
     const KeptMemory kept = some_memory(9);
     const std::string slot = slot_of(kept);
     EXPECT_EQ(slot.size(), slot_bytes);
@@ -36,14 +36,14 @@ TEST(LadderMemory, IsReadBack) {
     EXPECT_EQ(read_slot(slot_of({})), KeptMemory{});
 }
 
-TEST(LadderMemory, TheLaterSlotCounts) {
+TEST(LadderMemory, ReadsTheLaterSlot) {
     EXPECT_EQ(read_slots(slot_of(some_memory(8)) + slot_of(some_memory(7)))->writes, 8U);
     EXPECT_EQ(read_slots(slot_of(some_memory(8)) + slot_of(some_memory(9)))->writes, 9U);
     EXPECT_FALSE(read_slots(""));
     EXPECT_FALSE(read_slots(std::string(2 * slot_bytes, '\0')));
 }
 
-TEST(LadderMemory, ATornWriteLeavesTheFormerOne) {
+TEST(LadderMemory, TornWriteKeepsTheFormerSlot) {
     const std::string former = slot_of(some_memory(8));
     const std::string older = slot_of(some_memory(7));
     const std::string later = slot_of(some_memory(9));
@@ -60,7 +60,7 @@ TEST(LadderMemory, ATornWriteLeavesTheFormerOne) {
     }
 }
 
-TEST(LadderMemory, NoChangedByteIsTaken) {
+TEST(LadderMemory, RejectsAnyChangedByte) {
     const std::string slot = slot_of(some_memory(9));
     const std::size_t end = slot.find_last_not_of(" \n");
     std::mt19937 chance(2);
@@ -86,7 +86,7 @@ std::string signed_by_hand(const std::string& body) {
     return slot;
 }
 
-TEST(LadderMemory, NumbersOutOfTheirRangeAreRefused) {
+TEST(LadderMemory, RejectsNumbersOutOfRange) {
     const std::string rest = "-1 -1 -1 -1 -1 -1 -1 -1 -1 -1 -1 -1 ";
     EXPECT_TRUE(read_slot(signed_by_hand("1 2 3 1000 0 0 0 0 0 -1 -1 900 " + rest)));
     for (const char* const body :
@@ -108,7 +108,7 @@ TEST(LadderMemory, NumbersOutOfTheirRangeAreRefused) {
         read_slot(signed_by_hand("1 2 3 1000 0 0 0 0 0 -1 -1 900 -1 -1 -1 -1 -1 -1 600 500 -1 -1 -1 -1 ")));
 }
 
-TEST(LadderMemory, TimeAwakeNeverRunsFasterThanTime) {
+TEST(LadderMemory, TimeAwakeContinuesByElapsedTimeOnly) {
     const KeptMemory kept = some_memory(1);
     EXPECT_EQ(remembered(kept, kept.boot, minutes(9)).awake, hours(1234) + minutes(2));
     EXPECT_EQ(remembered(kept, kept.boot + 1, minutes(9)).awake, hours(1234) + minutes(9));

@@ -134,7 +134,7 @@ const char* broken_rule(const LadderMemory& before, const Event& event,
                                                   : nullptr;
 }
 
-TEST(LadderStates, EveryStateAndEveryEvent) {
+TEST(LadderStates, NoStateAndEventBreaksARule) {
     const std::vector<Event> events = all_events();
     std::size_t count = 0;
     std::size_t acts = 0;
@@ -156,7 +156,7 @@ TEST(LadderStates, EveryStateAndEveryEvent) {
     EXPECT_GT(acts, 1'000'000U); // otherwise no state mattered
 }
 
-TEST(LadderStates, TheTableIsALadder) {
+TEST(LadderStates, StepTablesAreValid) {
     for (std::size_t k = 0; k < cause_count; ++k) {
         const auto cause = static_cast<Cause>(k);
         const std::span<const Step> steps = Ladder::steps_for(cause);
@@ -171,7 +171,7 @@ TEST(LadderStates, TheTableIsALadder) {
     }
 }
 
-TEST(LadderStates, EveryWordIsReadBack) {
+TEST(LadderStates, RoundTripOfEveryWord) {
     for (std::size_t k = 0; k < cause_count; ++k) {
         EXPECT_EQ(cause_named(word_of(static_cast<Cause>(k))), static_cast<Cause>(k));
         EXPECT_FALSE(sentence_of(static_cast<Cause>(k)).empty());

@@ -68,7 +68,7 @@ TEST(Ladder, ClimbsWithGrowingPausesToTheSafePictureAndReboots) {
     EXPECT_EQ(kiosk.ladder.reboots_within_day(), 1U);
 }
 
-TEST(Ladder, RebootsSixTimesADayAndStaysWithTheSafePicture) {
+TEST(Ladder, RebootsAtMostSixTimesADay) {
     Kiosk kiosk;
     std::vector<Awake> reboots;
     for (const Awake end = hours(72); kiosk.now < end; kiosk.now += seconds(1)) {
@@ -90,7 +90,7 @@ TEST(Ladder, RebootsSixTimesADayAndStaysWithTheSafePicture) {
     EXPECT_EQ(kiosk.ladder.memory().mode, Mode::Safe);
 }
 
-TEST(Ladder, TriesFirstWhatHelpedForTheSameCause) {
+TEST(Ladder, TriesFirstTheStepThatHelpedBefore) {
     Kiosk kiosk;
     EXPECT_EQ(kiosk.bad(Cause::NoPicture, seconds(60)),
               (Steps{{Step::RestartExhibit, 0}, {Step::LastGoodSet, 20}, {Step::DrawPlainly, 50}}));
@@ -102,7 +102,7 @@ TEST(Ladder, TriesFirstWhatHelpedForTheSameCause) {
     EXPECT_EQ(kiosk.bad(Cause::NoPicture, seconds(5)), (Steps{{Step::DrawPlainly, 0}}));
 }
 
-TEST(Ladder, ReturnsLaterAndLaterToASetThatFails) {
+TEST(Ladder, DoublesTheWaitWithEachReturn) {
     Kiosk kiosk;
     std::vector<std::int64_t> good_for_min;
     for (int round = 0; round < 5; ++round) {
@@ -123,7 +123,7 @@ TEST(Ladder, ReturnsLaterAndLaterToASetThatFails) {
     EXPECT_EQ(good_for_min, (std::vector<std::int64_t>{10, 20, 40, 80, 160}));
 }
 
-TEST(Ladder, GivesUpOnADeviceThatNothingMends) {
+TEST(Ladder, GivesUpOnADeviceAfterAllSteps) {
     Kiosk kiosk;
     EXPECT_EQ(kiosk.bad(Cause::DeviceSilent, hours(30)),
               (Steps{{Step::ResetDevice, 0}, {Step::RestartExhibit, 20}, {Step::Reboot, 50}}));
@@ -134,7 +134,7 @@ TEST(Ladder, GivesUpOnADeviceThatNothingMends) {
     EXPECT_EQ(kiosk.bad(Cause::DeviceSilent, seconds(5)), (Steps{{Step::ResetDevice, 0}}));
 }
 
-TEST(Ladder, ADeviceThatWasGivenUpDoesNotKeepTheExhibitInABadMode) {
+TEST(Ladder, ReturnsToNormalDespiteADeviceThatWasGivenUp) {
     Kiosk kiosk;
     (void)kiosk.bad(Cause::DeviceSilent, hours(1));
     (void)kiosk.bad(Cause::NothingToShow, seconds(5));
@@ -142,7 +142,7 @@ TEST(Ladder, ADeviceThatWasGivenUpDoesNotKeepTheExhibitInABadMode) {
     EXPECT_EQ(kiosk.bad(Cause::DeviceSilent, minutes(15)), (Steps{{Step::Return, 600}}));
 }
 
-TEST(Ladder, LeavesOutWhatCannotBeDone) {
+TEST(Ladder, SkipsUnavailableSteps) {
     Kiosk kiosk;
     kiosk.capabilities = {};
     EXPECT_EQ(kiosk.bad(Cause::NoPicture, minutes(2)), (Steps{{Step::RestartExhibit, 0},
@@ -152,7 +152,7 @@ TEST(Ladder, LeavesOutWhatCannotBeDone) {
     EXPECT_TRUE(kiosk.see({}, hours(10)).empty()) << "a reboot that cannot be written down";
 }
 
-TEST(Ladder, AStartOfThisProgramAloneChangesNothing) {
+TEST(Ladder, RestartOfThisProgramKeepsTheMode) {
     Kiosk kiosk;
     (void)kiosk.bad(Cause::NoPicture, minutes(2));
     ASSERT_EQ(kiosk.ladder.memory().mode, Mode::Safe);

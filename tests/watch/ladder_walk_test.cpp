@@ -111,7 +111,7 @@ private:
     Capabilities means_{true, true, true};
 };
 
-TEST(LadderWalk, TenMillionEvents) {
+TEST(LadderWalk, TenMillionRandomEventsBreakNoRule) {
     std::array<std::size_t, step_count> steps{};
     for (unsigned seed = 1; seed <= 10; ++seed) {
         Walk walk(seed);

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 class MachineOfFiles : public WithTemporaryFolder {};
 
-TEST_F(MachineOfFiles, IsAsHotAsItsHottestProcessorOrZone) {
+TEST_F(MachineOfFiles, ReportsTheHottestProcessorOrZone) {
     EXPECT_FALSE(hottest_c(folder));
     put("sys/class/thermal/thermal_zone0/temp", "-274000\n"); // a missing sensor
     put("sys/class/thermal/cooling_device0/temp", "99000\n");
@@ -31,7 +31,7 @@ TEST_F(MachineOfFiles, IsAsHotAsItsHottestProcessorOrZone) {
     EXPECT_EQ(hottest_c(folder), 63.0);
 }
 
-TEST_F(MachineOfFiles, HasADisk) {
+TEST_F(MachineOfFiles, ReportsDiskSpace) {
     const std::optional<DiskSpace> disk = disk_space(folder);
     ASSERT_TRUE(disk);
     const fs::space_info other = fs::space(folder);

@@ -20,7 +20,7 @@ std::string with(std::string text, const std::string& what, const std::string& b
     return text.replace(place, what.size(), by);
 }
 
-TEST(ExhibitStatus, TakesItsFieldsAtTheirPlacesOnly) {
+TEST(ExhibitStatus, ReadsOnlyTopLevelFields) {
     const std::optional<ExhibitStatus> read = read_exhibit_status(status);
     ASSERT_TRUE(read);
     EXPECT_TRUE(read->says.well);
@@ -32,13 +32,13 @@ TEST(ExhibitStatus, TakesItsFieldsAtTheirPlacesOnly) {
     EXPECT_EQ(read->written_at, MonotonicTime(std::chrono::seconds(5)));
 }
 
-TEST(ExhibitStatus, SaysWhatIsNotWell) {
+TEST(ExhibitStatus, ReadsFaultsAndSleep) {
     EXPECT_FALSE(read_exhibit_status(with(status, "\"well\"", "\"frozen\""))->says.well);
     EXPECT_EQ(read_exhibit_status(with(status, "\"Amphora\"", "\"\""))->says.artifacts, 0U);
     EXPECT_TRUE(read_exhibit_status(with(status, "\"asleep\": false", "\"asleep\": true"))->says.asleep);
 }
 
-TEST(ExhibitStatus, WhatIsNoStatusIsNone) {
+TEST(ExhibitStatus, RejectsTextThatIsNoStatus) {
     for (const std::string& text :
          {std::string(), std::string("{"), std::string("[]"), std::string("{}"), status.substr(0, 200),
           status + "}", std::string(100'000, '['), with(status, "\"well\"", "7")}) {
@@ -46,13 +46,13 @@ TEST(ExhibitStatus, WhatIsNoStatusIsNone) {
     }
 }
 
-TEST(ExhibitStatus, LargeNumbersDoNoHarm) {
+TEST(ExhibitStatus, AcceptsTimesOutOfRange) {
     EXPECT_TRUE(read_exhibit_status(with(status, "5000000000", "18446744073709551615")));
     EXPECT_TRUE(read_exhibit_status(with(status, "5000000000", "-5")));
     EXPECT_TRUE(read_exhibit_status(with(status, "5000000000", "1e300")));
 }
 
-TEST(ExhibitStatus, ChangedBytesDoNoHarm) {
+TEST(ExhibitStatus, SurvivesChangedBytes) {
     std::mt19937 chance(3);
     std::size_t taken = 0;
     for (int round = 0; round < 20'000; ++round) {

@@ -23,7 +23,7 @@ protected:
     MonotonicTime start_{seconds(50)};
 };
 
-TEST_F(KeptFiles, MemoryIsRememberedInAnotherBoot) {
+TEST_F(KeptFiles, MemoryIsKeptAcrossBoots) {
     watch::LadderMemory memory;
     memory.awake = hours(5);
     memory.mode = watch::Mode::BuiltIn;
@@ -61,7 +61,7 @@ TEST_F(KeptFiles, MemoryIsWrittenAtMostOnceAMinute) {
     EXPECT_EQ(fs::file_size(folder / "memory"), watch::slot_count * watch::slot_bytes);
 }
 
-TEST_F(KeptFiles, AMemoryThatCannotBeWrittenAllowsNoReboot) {
+TEST_F(KeptFiles, ReportsAMemoryThatCannotBeWritten) {
     MemoryFile nowhere(folder / "missing" / "memory", 1);
     EXPECT_FALSE(nowhere.can_write_now(start_));
     EXPECT_FALSE(nowhere.keep(start_, seconds(1), {}, true));
@@ -71,7 +71,7 @@ TEST_F(KeptFiles, AMemoryThatCannotBeWrittenAllowsNoReboot) {
     EXPECT_FALSE(full.can_write_now(start_ + hours(1)));
 }
 
-TEST_F(KeptFiles, RubbishIsAKioskWithoutAPast) {
+TEST_F(KeptFiles, ReplacesAMalformedMemory) {
     std::ofstream(folder / "memory") << std::string(10'000, 'x');
     MemoryFile file(folder / "memory", 1);
     EXPECT_EQ(file.remembered(minutes(4)).awake, minutes(4));
@@ -84,7 +84,7 @@ Fault fault(const std::string& detail) {
             watch::Step::RestartExhibit, detail,      {}};
 }
 
-TEST_F(KeptFiles, FaultsAreARingThatDoesNotGrow) {
+TEST_F(KeptFiles, FaultsAreARingOfLimitedSize) {
     MonotonicTime now = start_;
     for (int round = 0; round < 100; ++round) {
         FaultBook book(folder / "faults"); // the program starts again, and goes on behind the latest line
@@ -124,7 +124,7 @@ TEST_F(KeptFiles, FaultsAreWrittenAtMostOnceAMinute) {
     EXPECT_NE(text("faults").find("; d"), std::string::npos) << "at once, before a reboot";
 }
 
-TEST_F(KeptFiles, AFaultSaysWhetherItsStepHelped) {
+TEST_F(KeptFiles, RecordsWhetherTheStepOfAFaultHelped) {
     FaultBook book(folder / "faults");
     book.enter(fault("a"));
     EXPECT_FALSE(book.latest()[0].helped.has_value());
@@ -138,7 +138,7 @@ TEST_F(KeptFiles, AFaultSaysWhetherItsStepHelped) {
     EXPECT_FALSE(book.latest()[2].helped.has_value());
 }
 
-TEST_F(KeptFiles, OrdersAreFiles) {
+TEST_F(KeptFiles, WritesOrdersToFiles) {
     const Orders orders(folder);
     ASSERT_TRUE(orders.begin(watch::Mode::Normal));
     EXPECT_EQ(text("mode"), "normal\n");

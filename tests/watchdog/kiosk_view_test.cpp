@@ -43,7 +43,7 @@ protected:
     KioskPlaces places_;
 };
 
-TEST_F(KioskOfFiles, IsSeen) {
+TEST_F(KioskOfFiles, ReadsEveryValue) {
     KioskView view(places_, boot_id(folder));
     const watch::Outcome outcome = look(view);
     EXPECT_EQ(outcome.process, 498);
@@ -61,7 +61,7 @@ TEST_F(KioskOfFiles, IsSeen) {
     EXPECT_FALSE(outcome.safe_pictures);
 }
 
-TEST_F(KioskOfFiles, WithoutAnyFileIsSeenAsItIs) {
+TEST_F(KioskOfFiles, UsesDefaultsWithoutFiles) {
     fs::remove_all(folder);
     KioskView view(places_, boot_id(folder));
     const watch::Outcome outcome = look(view);
@@ -75,7 +75,7 @@ TEST_F(KioskOfFiles, WithoutAnyFileIsSeenAsItIs) {
     EXPECT_TRUE(notes_of(outcome).empty());
 }
 
-TEST_F(KioskOfFiles, AStatusOfAnotherBootCountsForNothing) {
+TEST_F(KioskOfFiles, IgnoresAStatusOfAnotherBoot) {
     KioskView view(places_, boot_id(folder));
     status("b0", 100);
     EXPECT_FALSE(look(view).exhibit);
@@ -83,7 +83,7 @@ TEST_F(KioskOfFiles, AStatusOfAnotherBootCountsForNothing) {
     EXPECT_EQ(look(view).exhibit->age, seconds(0));
 }
 
-TEST_F(KioskOfFiles, EndsAreCountedAsTheyCome) {
+TEST_F(KioskOfFiles, CountsEndsOfTheExhibit) {
     KioskView view(places_, boot_id(folder));
     const auto end = [&](const char* text) { std::ofstream(folder / places_.ends, std::ios::app) << text; };
     fs::create_directories((folder / places_.ends).parent_path());
@@ -110,7 +110,7 @@ TEST_F(KioskOfFiles, EndsAreCountedAsTheyCome) {
     EXPECT_EQ(failures, 5003U);
 }
 
-TEST_F(KioskOfFiles, CapabilitiesAreWhatIsThere) {
+TEST_F(KioskOfFiles, DetectsCapabilitiesByTheirFiles) {
     KioskView view(places_, boot_id(folder));
     EXPECT_FALSE(view.capabilities().device);
     EXPECT_FALSE(view.capabilities().last_good_set);
@@ -122,7 +122,7 @@ TEST_F(KioskOfFiles, CapabilitiesAreWhatIsThere) {
     EXPECT_TRUE(view.capabilities().last_good_set);
 }
 
-TEST_F(KioskOfFiles, NotesAreForStaff) {
+TEST_F(KioskOfFiles, WritesANoteForEachProblem) {
     watch::Outcome outcome;
     outcome.projector = false;
     outcome.disk_free = 0.01;
@@ -134,7 +134,7 @@ TEST_F(KioskOfFiles, NotesAreForStaff) {
     EXPECT_EQ(notes_of(outcome).size(), 5U);
 }
 
-TEST_F(KioskOfFiles, SaysWhyTheExhibitEnded) {
+TEST_F(KioskOfFiles, ReportsWhyTheExhibitEnded) {
     KioskView view(places_, "b1");
     EXPECT_EQ(view.why_it_ended(), "");
     put("run/frustumscreen/ends", "57.90 exit-code exited 1\n");

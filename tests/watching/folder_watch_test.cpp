@@ -24,7 +24,7 @@ protected:
     void put(const std::string& file) const { std::ofstream(folder / file) << "x"; }
 };
 
-TEST_F(WatchedFolder, AWrittenARenamedAndARemovedFileCount) {
+TEST_F(WatchedFolder, DetectsWrittenRenamedAndRemovedFiles) {
     Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch) << watch.error().message;
     EXPECT_FALSE(*watch->take()) << "nothing has happened yet";
@@ -41,7 +41,7 @@ TEST_F(WatchedFolder, AWrittenARenamedAndARemovedFileCount) {
     EXPECT_TRUE(*watch->take());
 }
 
-TEST_F(WatchedFolder, AFileThatIsStillWrittenDoesNotCountYet) {
+TEST_F(WatchedFolder, IgnoresAFileUntilItIsClosed) {
     Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch);
     std::ofstream scan(folder / "scan.glb");
@@ -51,7 +51,7 @@ TEST_F(WatchedFolder, AFileThatIsStillWrittenDoesNotCountYet) {
     EXPECT_TRUE(*watch->take());
 }
 
-TEST_F(WatchedFolder, AFolderThatComesLaterIsWatchedToo) {
+TEST_F(WatchedFolder, WatchesAFolderThatIsCreatedLater) {
     Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch);
     fs::create_directories(folder / "recordings" / "de");
@@ -60,7 +60,7 @@ TEST_F(WatchedFolder, AFolderThatComesLaterIsWatchedToo) {
     EXPECT_TRUE(*watch->take());
 }
 
-TEST_F(WatchedFolder, FoldersThatLinksLeadToAreWatchedToo) {
+TEST_F(WatchedFolder, WatchesFoldersBehindSymbolicLinks) {
     const fs::path elsewhere = folder.string() + "_scans";
     fs::create_directories(elsewhere / "deep");
     fs::create_directory_symlink(elsewhere, folder / "scans");
@@ -87,7 +87,7 @@ TEST_F(WatchedFolder, FoldersThatLinksLeadToAreWatchedToo) {
     EXPECT_TRUE(*watch->take()) << "and the folder itself is still there";
 }
 
-TEST_F(WatchedFolder, ThatItIsGoneIsSaid) {
+TEST_F(WatchedFolder, ReportsThatTheFolderIsGone) {
     Result<programs::FolderWatch> watch = programs::FolderWatch::open(folder);
     ASSERT_TRUE(watch);
     const fs::path elsewhere = folder.string() + "_moved";
@@ -100,7 +100,7 @@ TEST_F(WatchedFolder, ThatItIsGoneIsSaid) {
     EXPECT_FALSE(programs::FolderWatch::open(folder)) << "and now there is none";
 }
 
-TEST(PassingNames, AreThoseOfEditorsAndCopies) {
+TEST(PassingNames, MatchTemporaryFilesOfEditorsAndCopies) {
     for (const char* name :
          {".artifact.toml.swp", "artifact.toml~", "#artifact.toml#", "4913", "x.html.part123", "a.tmp"}) {
         EXPECT_TRUE(programs::is_passing_name(name)) << name;
@@ -110,7 +110,7 @@ TEST(PassingNames, AreThoseOfEditorsAndCopies) {
     }
 }
 
-TEST(SettleTime, IsOverWhenNothingHasChangedForAWhile) {
+TEST(SettleTime, ExpiresAfterAPeriodWithoutChanges) {
     const MonotonicTime start = from_microseconds(5'000'000);
     programs::SettleTime settle(300ms);
     EXPECT_FALSE(settle.take(start));

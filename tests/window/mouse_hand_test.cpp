@@ -5,7 +5,7 @@
 namespace frustumscreen::window {
 namespace {
 
-TEST(MouseHand, SlidesThePropWithoutAJumpWhereverItIsHeld) {
+TEST(MouseHand, SlidesThePropWithoutAJumpWhenTaken) {
     MouseHand hand({0.3, 0.2});
     hand.move({0.2, 0.1});
     EXPECT_EQ(hand.prop({}).position_m, glm::dvec3(0.0)) << "not held";
@@ -33,7 +33,7 @@ TEST(MouseHand, TurnsAboutTheVertical) {
     EXPECT_NEAR(front.y, 1.0, 1e-12);
 }
 
-TEST(MouseHand, TakesTheEyeAroundTheTable) {
+TEST(MouseHand, MovesTheEyeAroundTheTable) {
     MouseHand hand({0.3, 0.2}, {0.0, -0.6, 0.6});
     EXPECT_EQ(hand.head({}).station, tracker::head_station);
     EXPECT_NEAR(glm::distance(hand.head({}).position_m, {0.0, -0.6, 0.6}), 0.0, 1e-12);

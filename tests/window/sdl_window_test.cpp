@@ -17,7 +17,7 @@ namespace {
 constexpr int width = 320;
 constexpr int height = 200;
 
-class AWindow : public testing::Test {
+class SdlWindowTest : public testing::Test {
 protected:
     void SetUp() override {
         ::setenv("SDL_VIDEODRIVER", "offscreen", 1);
@@ -103,7 +103,7 @@ protected:
     glm::dvec3 seen_eye_m_{0.0};
 };
 
-TEST_F(AWindow, IsADisplayThatKeepsItsPicture) {
+TEST_F(SdlWindowTest, IsADisplayThatKeepsItsPicture) {
     EXPECT_EQ(window_.display->width(), width);
     glBindFramebuffer(GL_FRAMEBUFFER, window_.display->framebuffer());
     glClearColor(0.0F, 1.0F, 0.0F, 1.0F);
@@ -120,7 +120,7 @@ TEST_F(AWindow, IsADisplayThatKeepsItsPicture) {
     EXPECT_EQ(texel, (std::array<unsigned char, 4>{0, 255, 0, 255}));
 }
 
-TEST_F(AWindow, TheMouseSlidesAndTurnsTheProp) {
+TEST_F(SdlWindowTest, TheMouseSlidesAndTurnsTheProp) {
     EXPECT_EQ(prop(1).position_m, glm::dvec3(0.0));
     button(SDL_MOUSEBUTTONDOWN, SDL_BUTTON_LEFT, 160, 100);
     motion(190, 80);
@@ -132,7 +132,7 @@ TEST_F(AWindow, TheMouseSlidesAndTurnsTheProp) {
     EXPECT_NEAR(glm::degrees(glm::angle(prop(4).rotation)), 45.0, 1.0);
 }
 
-TEST_F(AWindow, TheMiddleDragTakesTheEyeAround) {
+TEST_F(SdlWindowTest, MiddleDragMovesTheEyeAroundTheTable) {
     static_cast<void>(prop(1));
     const glm::dvec3 before = head_m_;
     EXPECT_NEAR(glm::distance(before, {0.0, -0.55, 0.5}), 0.0, 1e-9);
@@ -143,7 +143,7 @@ TEST_F(AWindow, TheMiddleDragTakesTheEyeAround) {
     EXPECT_NEAR(head_m_.x, -0.55 * std::sin(0.0087 * 90), 1e-9);
 }
 
-TEST_F(AWindow, ShowsThePictureAndBesideItWhatTheEyeSees) {
+TEST_F(SdlWindowTest, ShowsThePictureAndTheVisitorsView) {
     present(1.0F, 0.0F, 0.0F);
     EXPECT_EQ(shown(width / 2, height / 2), (std::array<unsigned char, 4>{255, 0, 0, 255}));
     // Half of the red light, 0.2 of green: codes 188 and 124.
@@ -151,7 +151,7 @@ TEST_F(AWindow, ShowsThePictureAndBesideItWhatTheEyeSees) {
     EXPECT_EQ(shown(width + width / 2, 3 * height / 4), (std::array<unsigned char, 4>{0, 0, 0, 255}));
 }
 
-TEST_F(AWindow, ADragInTheVisitorsHalfFollowsWhatIsSeenThere) {
+TEST_F(SdlWindowTest, DragInTheVisitorsHalfFollowsTheTablePoint) {
     present(0.0F, 0.0F, 0.0F);
     button(SDL_MOUSEBUTTONDOWN, SDL_BUTTON_LEFT, width + 160, 100);
     motion(width + 170, 95, 10, SDL_BUTTON_LMASK);
@@ -159,7 +159,7 @@ TEST_F(AWindow, ADragInTheVisitorsHalfFollowsWhatIsSeenThere) {
     EXPECT_NEAR(glm::distance(seen_prop_m_, {0.10, 0.05, 0.0}), 0.0, 1e-9); // shown at once
 }
 
-TEST_F(AWindow, HelpLiesOverItUntilItIsTakenAway) {
+TEST_F(SdlWindowTest, HelpKeyTogglesTheHelpOverlay) {
     present(0.0F, 0.0F, 1.0F);
     for (int time = 0; time < 2; ++time) {
         EXPECT_EQ(shown(width - 1, height / 2 - 1), (std::array<unsigned char, 4>{0, 0, 255, 255}));
@@ -172,7 +172,7 @@ TEST_F(AWindow, HelpLiesOverItUntilItIsTakenAway) {
     }
 }
 
-TEST_F(AWindow, KeysAreButtonsAndEscapeEnds) {
+TEST_F(SdlWindowTest, DigitKeysPressButtonsAndEscapeEnds) {
     key(SDLK_2);
     key(SDLK_1);
     key(SDLK_5);
@@ -196,7 +196,7 @@ TEST_F(AWindow, KeysAreButtonsAndEscapeEnds) {
     EXPECT_EQ(sigtimedwait(&term, nullptr, &at_once), SIGTERM);
 }
 
-TEST(NoDesktop, IsSaidAndNotTakenForOne) {
+TEST(NoDesktop, IsReportedAsAnError) {
     for (const char* display : {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"}) {
         ::unsetenv(display);
     }

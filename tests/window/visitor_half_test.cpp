@@ -26,7 +26,7 @@ image::Image8 bands() {
     return picture;
 }
 
-class TheVisitorsHalf : public testing::Test {
+class VisitorHalfTest : public testing::Test {
 protected:
     void SetUp() override {
         ::setenv("SDL_VIDEODRIVER", "offscreen", 1);
@@ -84,7 +84,7 @@ protected:
     Window window_;
 };
 
-TEST_F(TheVisitorsHalf, IsWhatARayForEveryPixelFinds) {
+TEST_F(VisitorHalfTest, MatchesTheRayCastPicture) {
     const image::Image8 picture = bands();
     const image::Image8 half = shown(picture);
     if (const char* const file = std::getenv("KEEP_WINDOW_PICTURE")) {
@@ -110,7 +110,7 @@ TEST_F(TheVisitorsHalf, IsWhatARayForEveryPixelFinds) {
               truth.texels.size() / 8);
 }
 
-TEST_F(TheVisitorsHalf, FindsThePlaceOnTheTableUnderAPixel) {
+TEST_F(VisitorHalfTest, FindsThePlaceOnTheTableUnderAPixel) {
     const glm::dvec3 eye = settings_.eye.default_m;
     const PixelSize half{width, height};
     const simulation::VisitorCamera camera = visitor_->camera(eye, half);

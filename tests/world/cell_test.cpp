@@ -9,7 +9,7 @@
 namespace frustumscreen::world {
 namespace {
 
-TEST(Cells, RestWhereTheirChainOfTransformsPutsThem) {
+TEST(Cells, RestPosesFollowTheTransformChain) {
     const std::vector<Cell> cells = chest();
     const std::vector<CellPose> poses = poses_at_rest(cells);
     const glm::dmat4 one(1.0);
@@ -21,7 +21,7 @@ TEST(Cells, RestWhereTheirChainOfTransformsPutsThem) {
     EXPECT_EQ(poses[2].light, glm::vec3(1.0F));
 }
 
-TEST(Cells, AreAsLargeAsTheirGeometryAndAllBelow) {
+TEST(Cells, ExtentsIncludeAllDescendants) {
     std::vector<Cell> cells(3); // a group; a cell 2 long and 10 away; one without anything
     cells[1].parent = 0;
     cells[1].parent_from_base[3] = {10.0, 0.0, 0.0, 1.0};

@@ -27,7 +27,7 @@ double degrees_about_z(const glm::dvec4& rotation) {
     return 2.0 * std::atan2(rotation.z, rotation.w) * 180.0 / std::numbers::pi;
 }
 
-TEST(Curve, OfStepsKeepsAKeysValueUntilTheNext) {
+TEST(Curve, StepKeepsAValueUntilTheNextKey) {
     const Curve curve = ramp_curve(Interpolation::Step);
     EXPECT_EQ(value_at(curve, Path::Translation, 1.0).x, 0.0);
     EXPECT_EQ(value_at(curve, Path::Translation, 1.999).x, 0.0);
@@ -35,13 +35,13 @@ TEST(Curve, OfStepsKeepsAKeysValueUntilTheNext) {
     EXPECT_EQ(value_at(curve, Path::Translation, 9.0).x, 8.0);
 }
 
-TEST(Curve, OfLinesIsTheMeanBetweenKeys) {
+TEST(Curve, LinearInterpolatesBetweenKeys) {
     const Curve curve = ramp_curve(Interpolation::Linear);
     EXPECT_EQ(value_at(curve, Path::Scale, 1.25), glm::dvec4(1.0, 1.0, 1.5, 0.0));
     EXPECT_EQ(value_at(curve, Path::Scale, 3.0), glm::dvec4(6.0, 2.0, 0.0, 0.0));
 }
 
-TEST(Curve, HasItsFirstValueBeforeAndItsLastAfter) {
+TEST(Curve, ClampsToItsFirstAndLastValue) {
     for (const Interpolation interpolation : {Interpolation::Step, Interpolation::Linear}) {
         const Curve curve = ramp_curve(interpolation);
         for (const double before : {-1e300, -1.0, 0.0, 0.999, std::numeric_limits<double>::quiet_NaN()}) {
@@ -53,7 +53,7 @@ TEST(Curve, HasItsFirstValueBeforeAndItsLastAfter) {
     }
 }
 
-TEST(Curve, OfOneKeyIsThatKey) {
+TEST(Curve, SingleKeyIsConstant) {
     const Curve line{
         .interpolation = Interpolation::Linear, .times_s = {0.5F}, .values = {{3.0F, 0.0F, 0.0F, 0.0F}}};
     const Curve spline{.interpolation = Interpolation::CubicSpline,
@@ -65,7 +65,7 @@ TEST(Curve, OfOneKeyIsThatKey) {
     }
 }
 
-TEST(Curve, OfACubicSplineScalesItsTangentsByTheInterval) {
+TEST(Curve, CubicSplineScalesItsTangentsByTheInterval) {
     // From 1 to 3 in 2 s; the first key's leaving tangent is 2 a second, the second's coming one -1 a second.
     const Curve curve{.interpolation = Interpolation::CubicSpline,
                       .times_s = {1.0F, 3.0F},
@@ -80,7 +80,7 @@ TEST(Curve, OfACubicSplineScalesItsTangentsByTheInterval) {
     EXPECT_NEAR((3.0 - value_at(curve, Path::Light, 3.0 - 1e-6).x) / 1e-6, -1.0, 1e-5);
 }
 
-TEST(Curve, OfRotationsTurnsAtAConstantSpeed) {
+TEST(Curve, RotationsTurnAtConstantSpeed) {
     const Curve curve{.interpolation = Interpolation::Linear,
                       .times_s = {0.0F, 1.0F},
                       .values = {turned(10.0), turned(130.0)}};
@@ -91,7 +91,7 @@ TEST(Curve, OfRotationsTurnsAtAConstantSpeed) {
     }
 }
 
-TEST(Curve, OfRotationsTurnsTheShorterWay) {
+TEST(Curve, RotationsTurnTheShorterWay) {
     const Curve curve{.interpolation = Interpolation::Linear,
                       .times_s = {0.0F, 1.0F},
                       .values = {turned(0.0), -turned(60.0)}}; // the same rotation with the other sign
@@ -102,7 +102,7 @@ TEST(Curve, OfRotationsTurnsTheShorterWay) {
     EXPECT_NEAR(degrees_about_z(value_at(back, Path::Rotation, 0.5)), -30.0, 1e-5);
 }
 
-TEST(Curve, OfRotationsHoldsForEqualNearlyEqualAndOppositeKeys) {
+TEST(Curve, RotationsHandleEqualNearAndOppositeKeys) {
     for (const double degrees : {0.0, 1e-6, 1e-3, 179.999, 180.0}) {
         const Curve curve{.interpolation = Interpolation::Linear,
                           .times_s = {0.0F, 1.0F},
@@ -113,7 +113,7 @@ TEST(Curve, OfRotationsHoldsForEqualNearlyEqualAndOppositeKeys) {
     }
 }
 
-TEST(Curve, OfRotationsNormalisesKeysAndSplines) {
+TEST(Curve, RotationsNormaliseKeysAndSplines) {
     const Curve curve{.interpolation = Interpolation::CubicSpline,
                       .times_s = {0.0F, 1.0F},
                       .values = {glm::vec4(0.0F), 3.0F * turned(0.0), glm::vec4(0.0F), glm::vec4(0.0F),
@@ -129,7 +129,7 @@ TEST(Curve, OfRotationsNormalisesKeysAndSplines) {
     EXPECT_EQ(std::abs(value_at(through, Path::Rotation, 0.5).w), 1.0);
 }
 
-TEST(Curve, WithKeysANanosecondApartIsExact) {
+TEST(Curve, IsExactForKeysANanosecondApart) {
     const Curve curve{.interpolation = Interpolation::Linear,
                       .times_s = {0.0F, 1e-9F, 2e-9F},
                       .values = {glm::vec4(0.0F), glm::vec4(1.0F), glm::vec4(0.0F)}};

@@ -55,7 +55,7 @@ double largest_jump(const std::vector<Behaviour>& behaviours) {
     return jump;
 }
 
-TEST(Interruption, AtAnyMomentMakesNothingJump) {
+TEST(Interruption, CausesNoJumpAtAnyMoment) {
     const std::vector<Behaviour> all = all_behaviours();
     EXPECT_LT(largest_jump({all[0], all[1], all[2]}), 2e-6); // what 100 ns and a curve's floats make
     // A spring's swing of 1e-4 of the cell's size counts as none; the lid is scaled by 2.
@@ -63,7 +63,7 @@ TEST(Interruption, AtAnyMomentMakesNothingJump) {
 }
 
 /// Ends that come by themselves are looked at from both sides.
-TEST(Interruption, NothingMovesFasterThanItsCurvesAndReturns) {
+TEST(Interruption, KeepsEachStepBelowTheSpeedLimit) {
     for (unsigned seed = 1; seed <= 10; ++seed) {
         Player player(chest(), all_behaviours());
         std::vector<CellPose> before = copy(player.step(at_s(1.0)));
@@ -115,7 +115,7 @@ TEST(Interruption, ASpringKeepsItsVelocity) {
     }
 }
 
-TEST(Interruption, StepsBetweenChangeNothing) {
+TEST(Interruption, IntermediateStepsDoNotChangeTheResult) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         Player often(chest(), all_behaviours());
         Player once(chest(), all_behaviours());
@@ -136,7 +136,7 @@ TEST(Interruption, StepsBetweenChangeNothing) {
     }
 }
 
-TEST(Interruption, TenSecondsInOneStepAreTenSecondsInAMillion) {
+TEST(Interruption, OneLongStepEqualsAMillionShortOnes) {
     Player often(chest(), all_behaviours());
     Player once(chest(), all_behaviours());
     for (std::size_t k = 0; k < 5; ++k) {

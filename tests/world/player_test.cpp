@@ -17,7 +17,7 @@ double x_of_chest(Player& player, double seconds) {
     return player.step(at_s(seconds))[0].box_from_geometry[3].x;
 }
 
-TEST(Player, AtRestShowsTheRest) {
+TEST(Player, ShowsRestPosesBeforeAnyStart) {
     Player player(chest(), {slide(), open_lid(), spring_up(), ring()});
     const std::vector<CellPose> rest = poses_at_rest(chest());
     for (const double seconds : {0.0, 1.0, 1e6}) {
@@ -42,7 +42,7 @@ TEST(Player, PlaysACurveAndReturnsWithinItsTime) {
     EXPECT_FALSE(player.moves());
 }
 
-TEST(Player, WhatStaysKeepsItsEndUntilItIsTriggeredAgain) {
+TEST(Player, StayingBehaviourHoldsItsEndUntilTriggeredAgain) {
     Player player(chest(), {open_lid()});
     player.trigger(0, at_s(0.0));
     const std::vector<CellPose> open = copy(player.step(at_s(1.0)));
@@ -54,7 +54,7 @@ TEST(Player, WhatStaysKeepsItsEndUntilItIsTriggeredAgain) {
     EXPECT_EQ(copy(player.step(at_s(3600.0 + return_s))), poses_at_rest(chest()));
 }
 
-TEST(Player, PutsALidWhereTheMatricesPutIt) {
+TEST(Player, PosesMatchTheMatrixProducts) {
     Player player(chest(), {open_lid()});
     player.start(0, at_s(0.0));
     const std::span<const CellPose> poses = player.step(at_s(0.5));
@@ -72,7 +72,7 @@ TEST(Player, PutsALidWhereTheMatricesPutIt) {
     }
 }
 
-TEST(Player, ASpringsMotionIsAddedToTheRest) {
+TEST(Player, AppliesASpringToTheRestPose) {
     Player player(chest(), {spring_up()});
     player.start(0, at_s(0.0));
     const std::span<const CellPose> poses = player.step(at_s(60.0));
@@ -97,7 +97,7 @@ TEST(Player, SpringsOfOneCellAddUp) {
     EXPECT_NEAR(x_of_chest(player, 90.0), 0.1, 1e-15);
 }
 
-TEST(Player, TheBehaviourThatWasStartedLastHasAPart) {
+TEST(Player, LatestBehaviourControlsASharedPart) {
     Player player(chest(), {slide(), go_round()});
     player.start(0, at_s(0.0)); // until 2 s
     EXPECT_NEAR(x_of_chest(player, 0.5), 0.25, eps);
@@ -111,7 +111,7 @@ TEST(Player, TheBehaviourThatWasStartedLastHasAPart) {
     EXPECT_NEAR(x_of_chest(player, 1.6 + 3.0), 1.0, eps);
 }
 
-TEST(Player, StartedAgainBeginsAgainFromWhereItIs) {
+TEST(Player, RestartBeginsFromTheCurrentPose) {
     Player player(chest(), {slide()});
     player.start(0, at_s(0.0));
     player.start(0, at_s(1.0));
@@ -120,7 +120,7 @@ TEST(Player, StartedAgainBeginsAgainFromWhereItIs) {
     EXPECT_NEAR(x_of_chest(player, 3.0), 1.0, eps);
 }
 
-TEST(Player, ALoopKeepsItsPhaseForADay) {
+TEST(Player, LoopKeepsItsPhaseForADay) {
     Player player(chest(), {go_round()});
     player.start(0, at_s(7.0));
     const std::vector<CellPose> once = copy(player.step(at_s(7.0 + 1.234)));
@@ -129,7 +129,7 @@ TEST(Player, ALoopKeepsItsPhaseForADay) {
     }
 }
 
-TEST(Player, PushesABellOverAndOverWithoutMore) {
+TEST(Player, RepeatedPushesDoNotWidenTheSwing) {
     Player player(chest(), {ring()});
     player.start(0, at_s(0.0));
     const glm::dmat4 rest = poses_at_rest(chest())[2].box_from_geometry;
@@ -143,7 +143,7 @@ TEST(Player, PushesABellOverAndOverWithoutMore) {
     EXPECT_LT(widest, 0.33);
 }
 
-TEST(Player, EndsAllAndComesToRestAlsoWithoutDamping) {
+TEST(Player, EndAllComesToRestEvenWithoutDamping) {
     Behaviour swing{.name = "swing", .seconds = 10.0, .repeats = true};
     swing.pendulums.push_back({.cell = 2, .angle_rad = 0.3, .length_m = 0.2, .damping_per_s = 0.0});
     Player player(chest(), {slide(), open_lid(), spring_up(), swing});
@@ -160,7 +160,7 @@ TEST(Player, EndsAllAndComesToRestAlsoWithoutDamping) {
     }
 }
 
-TEST(Player, PosesAtATimeAreThoseOfTheCurves) {
+TEST(Player, PosesAtATimeMatchTheCurves) {
     const std::vector<Cell> cells = chest();
     Behaviour jumps = slide(); // its first key is not where the cell rests
     jumps.channels[0].curve.values[0] = {5.0F, 0.0F, 0.0F, 0.0F};
@@ -171,7 +171,7 @@ TEST(Player, PosesAtATimeAreThoseOfTheCurves) {
     EXPECT_NEAR(poses_at(cells, jumps, -1.0)[0].box_from_geometry[3].x, 5.0, eps);
 }
 
-TEST(Player, HoldsWhatDoesNothing) {
+TEST(Player, AcceptsEmptyBehaviours) {
     Player player(chest(), {Behaviour{.name = "nothing"}, Behaviour{.name = "loop", .repeats = true}});
     player.trigger(0, at_s(0.0));
     player.trigger(1, at_s(0.0));

@@ -17,7 +17,7 @@ SiteView somewhere(std::mt19937& random) {
     return view_of({any(random), any(random), 0.2 + any(random)}, std::exp2(octaves(random)));
 }
 
-TEST(SiteView, HasThePlaceInTheMiddleOfTheGround) {
+TEST(SiteView, CentresThePlace) {
     const SiteView view = view_of({0.25, -0.5, 0.125}, 8.0);
     EXPECT_EQ(view.point({0.25, -0.5, 0.125}), glm::dvec3(0.0));
     EXPECT_EQ(view.point({0.375, -0.5, 0.25}), glm::dvec3(1.0, 0.0, 1.0));
@@ -25,7 +25,7 @@ TEST(SiteView, HasThePlaceInTheMiddleOfTheGround) {
     EXPECT_EQ(glm::dvec3(view.matrix() * glm::dvec4(0.375, -0.5, 0.25, 1.0)), glm::dvec3(1.0, 0.0, 1.0));
 }
 
-TEST(SiteView, GrowsByTheSameFactorInEachPartOfTheWay) {
+TEST(SiteView, ZoomsExponentiallyWithTheShare) {
     const SiteView to = view_of({0.25, 0.125, 0.0}, 16.0);
     for (int k = 0; k <= 16; ++k) {
         EXPECT_NEAR(between({}, to, k / 16.0).zoom, std::exp2(k / 4.0), 1e-13 * 16.0) << k;
@@ -36,7 +36,7 @@ TEST(SiteView, GrowsByTheSameFactorInEachPartOfTheWay) {
     EXPECT_EQ(between({}, to, 2.0), to);
 }
 
-TEST(SiteView, TakesEachPlaceAlongAStraightLineAndNeverBack) {
+TEST(SiteView, MovesEachPlaceMonotonicallyOnAStraightLine) {
     std::mt19937 random(62);
     std::uniform_real_distribution<double> any(-0.5, 0.5);
     for (int trial = 0; trial < 200; ++trial) {
@@ -63,7 +63,7 @@ TEST(SiteView, TakesEachPlaceAlongAStraightLineAndNeverBack) {
 }
 
 /// In long double, with the formula of the exponential itself.
-TEST(SiteView, IsExactForSizesThatAreAlmostEqualAndForAMillion) {
+TEST(SiteView, IsExactForZoomsFromAlmostOneToAMillion) {
     for (const double zoom : {1.0, 1.0 + 1e-15, 1.0 + 1e-10, 1.0 + 1e-6, 2.0, 1e6}) {
         const SiteView to = view_of({0.5, -0.5, 0.0}, zoom); // a corner of the site
         for (const double share : {0.001, 0.25, 0.5, 0.999}) {
@@ -90,7 +90,7 @@ std::vector<RegionBox> squares() {
     return regions;
 }
 
-TEST(SiteRegions, AreFoundByAPlaceOfTheirGround) {
+TEST(SiteRegions, AreFoundByAGroundPoint) {
     const std::vector<RegionBox> regions = squares();
     for (std::size_t k = 0; k < regions.size(); ++k) {
         EXPECT_EQ(region_at(regions, glm::dvec2(ground_of(regions[k]))), k);
@@ -101,7 +101,7 @@ TEST(SiteRegions, AreFoundByAPlaceOfTheirGround) {
     EXPECT_FALSE(region_at({}, {0.0, 0.0}));
 }
 
-TEST(SiteRegions, AreFoundByTheRayThatIsLongestInThem) {
+TEST(SiteRegions, RayFindsTheRegionThatItCrossesLongest) {
     const std::vector<RegionBox> regions = squares();
     std::mt19937 random(63);
     std::uniform_real_distribution<double> any(-0.6, 0.6);

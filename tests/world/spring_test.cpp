@@ -34,7 +34,7 @@ Exact integrated(const SpringLaw& law, const Motion& start, long double seconds,
     return at;
 }
 
-TEST(Spring, IsWhatIntegrationWithShortStepsGives) {
+TEST(Spring, MatchesNumericalIntegration) {
     for (const double stiffness : {1e-3, 1.0, 100.0, 1e6, 1e9}) {
         const double rate = std::sqrt(stiffness);
         for (const double ratio : {0.0, 0.01, 0.3, 0.999, 1.0, 1.001, 3.0, 20.0}) {
@@ -51,14 +51,14 @@ TEST(Spring, IsWhatIntegrationWithShortStepsGives) {
     }
 }
 
-TEST(Spring, WithoutDampingIsACosine) {
+TEST(Spring, UndampedMotionIsACosine) {
     const SpringLaw law{4.0 * std::numbers::pi * std::numbers::pi, 0.0}; // a second a swing
     EXPECT_NEAR(motion_after(law, {1.0, 0.0}, 0.25).x, 0.0, 1e-15);
     EXPECT_NEAR(motion_after(law, {1.0, 0.0}, 0.5).x, -1.0, 1e-15);
     EXPECT_NEAR(motion_after(law, {1.0, 0.0}, 86'400.0).x, 1.0, 1e-9);
 }
 
-TEST(Spring, OfCriticalDampingIsItsLimit) {
+TEST(Spring, MatchesTheClosedFormAtCriticalDamping) {
     // x = (1 + w t) exp(-w t), v = -w^2 t exp(-w t)
     const double w = 10.0;
     for (const double t : {1e-6, 0.01, 0.1, 1.0, 10.0}) {
@@ -72,14 +72,14 @@ TEST(Spring, OfCriticalDampingIsItsLimit) {
     }
 }
 
-TEST(Spring, FarAboveCriticalDampingCreeps) {
+TEST(Spring, CreepsFarAboveCriticalDamping) {
     // The slow part of x: exp(-stiffness / damping t), to first order.
     const Motion motion = motion_after({1.0, 1e9}, {1.0, 0.0}, 1e9);
     EXPECT_NEAR(motion.x, std::exp(-1.0), 1e-9);
     EXPECT_NEAR(motion.v, -1e-9 * std::exp(-1.0), 1e-18);
 }
 
-TEST(Spring, DoesNotMoveInTimeThatStandsStillOrGoesBack) {
+TEST(Spring, DoesNotMoveForZeroOrNegativeTime) {
     for (const double seconds : {0.0, -1.0, std::nan("")}) {
         const Motion motion = motion_after({10.0, 1.0}, {0.3, 0.2}, seconds);
         EXPECT_EQ(motion.x, 0.3);
@@ -87,7 +87,7 @@ TEST(Spring, DoesNotMoveInTimeThatStandsStillOrGoesBack) {
     }
 }
 
-TEST(Spring, PushedFromRestSwingsAsFarAsAsked) {
+TEST(Spring, PushFromRestReachesTheRequestedDistance) {
     for (const double damping : {0.0, 0.1, 1.0, 19.99, 20.0, 20.01, 50.0, 1e4}) {
         const SpringLaw law{100.0, damping};
         const Motion start{0.0, speed_to_reach(law, 0.25)};

@@ -82,12 +82,12 @@ class Plots(unittest.TestCase):
 
 
 class Fronts(unittest.TestCase):
-    def test_a_front_keeps_what_nothing_is_left_of_and_below(self):
+    def test_pareto_front_keeps_undominated_points(self):
         self.assertEqual(pareto_front([(3, 1), (1, 3), (2, 4), (2, 2), (3, 1), (4, 1), (1, 5)]),
                          [(1, 3), (2, 2), (3, 1)])
         self.assertEqual(pareto_front([]), [])
 
-    def test_the_median_is_what_half_of_the_artifacts_reach(self):
+    def test_median_attainment_is_reached_by_half_of_the_artifacts(self):
         three = [[(1, 10), (4, 2)], [(2, 8), (5, 1)], [(3, 20)]]
         # At 1 one of three reaches anything; at 2 two do: 8 and 10; at 4: 2, 8 and 20; at 5: 1, 2 and 20.
         self.assertEqual(median_attainment(three), [(2, 10), (4, 8), (5, 2)])
@@ -95,13 +95,13 @@ class Fronts(unittest.TestCase):
         self.assertEqual(median_attainment([]), [])
         self.assertEqual(median_attainment([[], [], [(1, 1)]]), [])
 
-    def test_the_median_of_equal_artifacts_is_their_front(self):
+    def test_median_attainment_of_equal_artifacts_is_their_front(self):
         points = [(1, 5), (2, 6), (3, 2), (9, 1)]
         self.assertEqual(median_attainment([points] * 4), pareto_front(points))
 
 
 class ErrorTime(Plots):
-    def test_every_technique_stands_at_its_cost_and_error_in_three_plots(self):
+    def test_marks_techniques_at_cost_and_error_in_three_plots(self):
         main([str(self.error_time() / "error_time.csv")])
         svg = Svg(self.folder / "error_time_near.svg")
         for panel, factor in enumerate(FACTORS):
@@ -117,7 +117,7 @@ class ErrorTime(Plots):
         self.assertNotIn("floor", words)
         self.assertNotIn("new", words)
 
-    def test_what_is_not_on_its_familys_front_is_faint_and_not_on_the_line(self):
+    def test_points_off_the_front_are_faint_and_not_on_the_line(self):
         main([str(self.error_time() / "error_time.csv")])
         svg = Svg(self.folder / "error_time_near.svg")
         self.assert_at(svg, 0, "one pass, LODs/more", [(2.9, 0.6)])
@@ -127,7 +127,7 @@ class ErrorTime(Plots):
                      if use.tag.endswith("use")}
         self.assertTrue(all("fill-opacity: 0.3" in style for style in opacities), opacities)
 
-    def test_a_two_pass_picture_that_another_eye_image_betters_is_left_out(self):
+    def test_omits_two_pass_rows_without_the_best_eye_image(self):
         main([str(self.error_time() / "error_time.csv")])
         svg = Svg(self.folder / "error_time_near.svg")
         self.assert_at(svg, 0, "two-pass, full mesh", [(9, 0.08)])
@@ -139,7 +139,7 @@ class ErrorTime(Plots):
         self.assertEqual(words.count("one pass, LODs"), 3)
         self.assertNotIn("ray cast (reference)", words)
 
-    def test_the_limits_of_default_and_finest_level_are_lines_across(self):
+    def test_draws_limits_of_default_and_finest_level(self):
         main([str(self.error_time() / "error_time.csv")])
         svg = Svg(self.folder / "error_time_near.svg")
         self.assertEqual(svg.texts().count("default level's limit"), 3)
@@ -152,14 +152,14 @@ class ErrorTime(Plots):
             self.assertAlmostEqual(line[0][1], ticks["0.1"] + (ticks["0.5"] - ticks["0.1"]) * share, delta=0.01)
         self.assertNotIn("fine level's limit", svg.texts())
 
-    def test_a_table_of_two_pass_alone_is_drawn_beside_it(self):
+    def test_draws_a_two_pass_table(self):
         folder = self.error_time()
         (folder / "error_time.csv").rename(folder / "two_pass_near_1000000.csv")
         main([str(folder / "two_pass_near_1000000.csv")])
         words = Svg(folder / "two_pass_near_1000000.svg").texts()
         self.assertIn("Colour error: Built-in amphora, 1000000 triangles, near set-up", words)
 
-    def test_the_sheet_of_all_has_a_row_for_each_set_up_and_names_the_artifacts(self):
+    def test_overall_sheet_has_a_row_per_set_up_and_names_artifacts(self):
         cat = self.error_time("cat", ("near", "kiosk"))
         skull = self.error_time("skull", title="Skull & <bones>")
         out = self.folder / "all.svg"
@@ -195,7 +195,7 @@ class OtherTables(Plots):
         for label in ("1.50 x", "2.00 x", "8.00 x"):
             self.assertEqual(svg.texts().count(label), 1, label)
 
-    def test_latency_has_a_plot_for_each_tracker_and_dashes_what_does_not_predict(self):
+    def test_latency_has_a_plot_per_tracker_and_dashed_lines(self):
         rows = [{"source": tracker, "contestant": contestant, "motion": motion, "speed_m_s": 0.25,
                  "latency_ms": latency, "rms_mm": 0.1 * latency}
                 for tracker in ("PATRIOT", "VIPER") for contestant in ("exhibit", "exhibit, predicted")
@@ -209,7 +209,7 @@ class OtherTables(Plots):
             self.assertNotIn("stroke-dasharray", svg.style(f"panel{panel}/exhibit, predicted"))
         self.assertIn("VIPER, strokes at 0.25 m/s", svg.texts())
 
-    def test_step_errors_have_a_plot_for_each_unit_and_an_exact_zero_its_place(self):
+    def test_step_errors_have_a_plot_per_unit_and_show_zero(self):
         rows = [{"what": what, "step": step, "step_unit": unit, "error": error}
                 for what, unit in (("exact", "time constants"), ("governor", "s"))
                 for step, error in ((0.1, 0), (10, 0.5))]
@@ -230,14 +230,14 @@ class OtherTables(Plots):
         main([str(self.folder / "setup.csv")])
         return Svg(self.folder / "setup.svg")
 
-    def test_what_frames_cost_is_drawn_where_it_was_measured(self):
+    def test_draws_frame_costs_that_were_measured(self):
         svg = self.setup_plot("1.0", "1.5", "", "2.0")
         self.assert_at(svg, 4, "above the middle", [(1.5, 1.5), (1.6, 2.0)], log=False)
         self.assertFalse(svg.marks("panel4/0.3 m behind it, tilted"))
         self.assertTrue(svg.marks("panel3/0.3 m behind it, tilted"))
         self.assertEqual(svg.texts().count("as it is"), 5)
 
-    def test_frames_that_nobody_timed_have_no_panel(self):
+    def test_omits_the_frame_cost_panel_without_measurements(self):
         svg = self.setup_plot("", "", "", "")
         self.assertIn("axes_4", svg.groups)
         self.assertNotIn("axes_5", svg.groups)
@@ -257,7 +257,7 @@ class Panels(Plots):
                     self.assertGreaterEqual(len(svg.ticks(0, axis)), 3, (low, high))
                     self.assertLessEqual(len(svg.ticks(0, axis)), 15, (low, high))
 
-    def test_a_legend_has_room_for_its_words(self):
+    def test_long_legends_and_notes_fit(self):
         words = "a technique whose name is very long, on the finest level, in the worst of all poses"
         svg = self.drawn([Panel("t", "x", "y", [Series("short", [(1, 1), (2, 2)])]),
                           Panel("t", "x", "y", [Series(words, [(1, 1), (2, 2)])])])
@@ -276,7 +276,7 @@ class Panels(Plots):
         self.assertEqual(" ".join(lines), note)
         self.assertLess(max(map(len, lines)) * 6.5, svg.width())
 
-    def test_what_lies_below_the_least_of_the_axis_is_drawn_there(self):
+    def test_clamps_points_below_the_axis_minimum(self):
         panel = Panel("t", "x", "y", [Series("s", [(1, 1), (2, 0.001), (3, 1e-7), (4, 0)])], y_min=0.001)
         svg = self.drawn([panel])
         self.assert_at(svg, 0, "s", [(1, 1), (2, 0.001), (3, 0.001), (4, 0.001)])
@@ -284,12 +284,12 @@ class Panels(Plots):
         panel.series[0].points = panel.series[0].points[:1]
         self.assertNotIn("≤ 0.001", self.drawn([panel]).texts())  # nothing lies there
 
-    def test_any_words_are_text(self):
+    def test_escapes_special_characters_in_text(self):
         words = "Error & cost <\"quoted\"> $x^2$"
         svg = self.drawn([Panel(words, words, words, [Series(words, [(1, 1, words)])], [(2, words)])])
         self.assertEqual(svg.texts().count(words), 6)
 
-    def test_an_empty_plot_is_still_a_picture(self):
+    def test_draws_an_empty_plot(self):
         for log in (False, True):
             self.assertIn("nothing", self.drawn([Panel("nothing", "x", "y", log=log)]).texts())
         save_sheet(self.folder / "none.svg", "none", [], 3, [])
@@ -315,7 +315,7 @@ class Panels(Plots):
 
 
 class Room(Plots):
-    def test_the_slowest_frame_of_each_technique_is_marked_with_its_rate(self):
+    def test_marks_the_slowest_frame_of_each_technique_with_its_rate(self):
         table = self.folder / "room_frames.csv"
         write_table(table, ({"technique": technique, "walk": walk, "seconds": seconds, "ms": ms, "wall_ms": 2 * ms}
                             for technique, times in (("ours", (20, 25, 20)), ("lod", (50, 80, 100)))
@@ -327,7 +327,7 @@ class Room(Plots):
             self.assert_at(svg, panel, "lod, least/more", [(2, 10)], log=False)
         self.assertEqual(svg.texts().count("40.0"), 2)
 
-    def test_each_technique_stands_at_its_median_and_its_99th_percentile(self):
+    def test_marks_each_technique_at_its_median_and_99th_percentile(self):
         table = self.folder / "room.csv"
         write_table(table, ({"technique": technique, "objects": 200, "triangles": 4_000_000, "ms_p50": ms, "ms_p99": 2 * ms,
                              "fps_min": 1, "error_mm_mean": error}
@@ -338,7 +338,7 @@ class Room(Plots):
         self.assert_at(svg, 0, "paper, p99 mark/more", [(120, 3.0)])
         self.assertIn("A room of 200 objects, 4.0 million source triangles", svg.texts())
 
-    def test_the_papers_machines_stand_beside_ours(self):
+    def test_marks_the_papers_machines(self):
         table = self.folder / "room_paper.csv"
         write_table(table, ({"technique": technique, "polygons_s": rate, "polygons_p50": 1, "polygons_max": 2, "ms_p50": 3,
                              "fps_min": fps, "error_mm_mean": error}
@@ -351,7 +351,7 @@ class Room(Plots):
 
 
 class Torch(Plots):
-    def test_each_technique_stands_at_its_cost_and_its_error(self):
+    def test_marks_each_technique_at_its_relative_cost_and_error(self):
         table = self.folder / "torch.csv"
         write_table(table, ({"scene": scene, "technique": technique, "tolerance_mm": 0, "ms_p50": ms, "ms_p99": 2 * ms,
                              "intensity_rmse": error, "intensity_max": 2 * error}
@@ -365,7 +365,7 @@ class Torch(Plots):
             self.assert_at(svg, panel, "paper", [(2.0, 0.9), (3.0, 0.2)], log=False)
             self.assert_at(svg, panel, "paper_curvature", [(2.5, 0.3)], log=False)
 
-    def test_frame_rates_are_those_of_ten_frames(self):
+    def test_frame_rates_are_means_of_ten_frames(self):
         table = self.folder / "torch_frames.csv"
         write_table(table, ({"scene": "mesh", "technique": technique, "tolerance_mm": 2, "frame": frame,
                              "ms": ms if frame < 10 else 2 * ms}
@@ -376,7 +376,7 @@ class Torch(Plots):
         self.assert_at(svg, 0, "paper_steered, spread 2.00", [(5, 50), (15, 25)], log=False)
         self.assert_at(svg, 0, "paper_fixed, spread 2.00", [(5, 40), (15, 20)], log=False)
 
-    def test_a_wall_has_its_triangles_over_its_errors(self):
+    def test_wall_plots_triangles_over_errors(self):
         table = self.folder / "torch_wall.csv"
         write_table(table, ({"attenuation": attenuation, "heuristic": heuristic, "triangles": triangles,
                              "intensity_rmse": error, "intensity_max": 3 * error}
@@ -388,7 +388,7 @@ class Torch(Plots):
         self.assert_at(svg, 0, "by edge length (paper)", [(20, 5.0), (200, 1.0)])
         self.assert_at(svg, 3, "by the bound (ours)", [(100, 3.0)])
 
-    def test_walls_are_lit_between_their_corners_and_only_in_the_beam(self):
+    def test_interpolates_wall_light_inside_the_beam_only(self):
         corner = (0.1, 0.0, 1.0, 0.0, 0.0, 1.0)
         triangle = [corner, (0.5, 0.0, 0.0, 2.0, 0.0, 1.0), (0.1, 0.4, 0.0, 0.0, 2.0, 1.0)]
         codes, in_beam = torch_plots.wall_picture([triangle])
@@ -410,7 +410,7 @@ class Torch(Plots):
 
 
 class Ldi(Plots):
-    def test_windows_are_told_in_frames_of_the_scene_alone(self):
+    def test_window_costs_are_relative_to_the_scene_alone(self):
         table = self.folder / "ldi.csv"
         write_table(table, ({"triangles": triangles, "windows": windows, "technique": technique,
                              "ms_p50": 10 + windows * ms, "ms_p99": 99, "silhouette_pct": 0.5 if windows else 0,
@@ -433,13 +433,13 @@ class Ldi(Plots):
         self.assert_at(Svg(table.with_suffix(".svg")), 0, "ours", [(128, 2.0), (256, 1.0)])
 
 
-class WhatIsBroken(Plots):
+class InvalidInput(Plots):
     def assert_said(self, arguments, words):
         with self.assertRaisesRegex(Failure, words) as caught:
             main([str(argument) for argument in arguments])
         self.assertNotIn("\n", str(caught.exception))
 
-    def test_a_table_that_is_none_is_one_line(self):
+    def test_reports_an_invalid_table_in_one_line(self):
         folder = self.error_time()
         table = folder / "error_time.csv"
         good = table.read_text()
@@ -455,19 +455,19 @@ class WhatIsBroken(Plots):
         table.write_bytes(b"\xff\xfe\n\n")
         self.assert_said([table], "error_time.csv: .*measure again")
 
-    def test_a_sheet_of_an_old_table_is_one_line(self):
+    def test_reports_an_outdated_table_of_a_sheet_in_one_line(self):
         folder = self.error_time()
         table = folder / "error_time.csv"
         table.write_text(table.read_text().replace("best_eye_image", "_", 1))
         self.assert_said(["--overall", folder / "all.svg", folder], "best_eye_image.*measure again")
 
-    def test_a_report_without_a_title_is_one_line(self):
+    def test_reports_a_missing_title_in_one_line(self):
         folder = self.error_time()
         for text in ("", "{", "[]", "null", "{}"):
             (folder / "error_time.json").write_text(text)
             self.assert_said(["--overall", folder / "all.svg", folder], "error_time.json: .*measure again")
 
-    def test_without_matplotlib_the_package_is_named_and_the_table_stays(self):
+    def test_names_missing_matplotlib_package_and_keeps_table(self):
         table = self.error_time() / "error_time.csv"
         (self.folder / "matplotlib.py").write_text("raise ImportError('none')\n")
         done = subprocess.run([PLOTS / "draw_plots.py", table], capture_output=True, text=True, check=False,

@@ -29,7 +29,7 @@ def set_report(device, report):
 
 
 class Reports(unittest.TestCase):
-    def test_are_those_that_linux_asks_and_sends(self):
+    def test_match_those_of_the_linux_driver(self):
         device = Cp2112()
         count = 0
         for verb, given, found in lines("get", "set"):
@@ -45,7 +45,7 @@ class Reports(unittest.TestCase):
                 self.assertEqual(answer, bytes.fromhex(found), given)
         self.assertGreater(count, 10)
 
-    def test_take_pins_away_as_other_drivers_have_it(self):
+    def test_special_functions_take_pins_from_buttons(self):
         count = 0
         for _, given, found in lines("functions"):
             count += 1
@@ -64,7 +64,7 @@ class SpecialCommand(unittest.TestCase):
         self.device = Cp2112()
         self.console = ButtonsConsole(self.device)
 
-    def test_switches_a_pins_function_on_until_the_power_is_gone(self):
+    def test_enables_a_special_function_until_power_off(self):
         for pin, byte in ((7, 1), (0, 3), (1, 7)):
             self.console.execute(f"special {pin}")
             self.assertEqual(get(self.device, 2, 5), bytes([2, 0, 0, byte, 0]))
@@ -76,7 +76,7 @@ class SpecialCommand(unittest.TestCase):
         self.console.execute("special off")
         self.assertEqual(self.device.special_pins(), 0)
 
-    def test_refuses_pins_that_have_none(self):
+    def test_rejects_pins_without_a_special_function(self):
         for word in ("2", "8", "all"):
             with self.assertRaises(ValueError) as refused:
                 self.console.execute(f"special {word}")
@@ -84,7 +84,7 @@ class SpecialCommand(unittest.TestCase):
 
 
 class PressCommand(unittest.IsolatedAsyncioTestCase):
-    async def test_ends_when_the_host_has_noticed_it(self):
+    async def test_lasts_until_the_host_has_read_it(self):
         device = Cp2112()
         device.link = types.SimpleNamespace(connected=True)
         ButtonsConsole(device).execute("press 1 10ms")

@@ -96,10 +96,10 @@ class FamilyTest(unittest.TestCase):
     def test_sigterm_while_a_thread_waits_for_a_program(self):
         self.assert_ended_by(signal.SIGTERM, IN_A_THREAD)
 
-    def test_a_signal_ends_what_was_to_be_kept(self):
+    def test_a_signal_ends_kept_programs(self):
         self.assert_ended_by(signal.SIGINT, IN_A_TEST, "keep")
 
-    def test_the_end_of_the_work(self):
+    def test_normal_exit_ends_all_programs(self):
         process, mark = self.started(AT_ITS_END)
         self.assertEqual(process.wait(), 0)
         self.assertEqual(members(mark), [])

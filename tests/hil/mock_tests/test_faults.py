@@ -21,7 +21,7 @@ class Telling(unittest.TestCase):
         for text in ("2", "s", "-1s", "2m", "1e3s"):
             self.assertIsNone(parse_duration(text))
 
-    def test_a_fault_ends_by_itself_or_when_told(self):
+    def test_a_fault_ends_after_its_duration_or_on_command(self):
         self.assertEqual(self.faults.tell("stall", ["2s"]), 2.0)
         self.assertTrue(self.faults.on("stall"))
         self.clock.now = 2.0
@@ -39,7 +39,7 @@ class Telling(unittest.TestCase):
         self.clock.now = 3.0
         self.assertIsNone(self.faults.value("distortion"))
 
-    def test_what_is_not_allowed_is_said(self):
+    def test_rejects_invalid_values(self):
         for name, words in (("drop", ["2"]), ("drop", ["x"]), ("distortion", ["256"]), ("stall", ["0.5"]),
                             ("drop", ["nan"])):
             with self.assertRaisesRegex(ValueError, name):
@@ -64,7 +64,7 @@ class Frames(unittest.TestCase):
     def test_without_faults_everything_passes(self):
         self.assertEqual(self.run_path(1), [[(bytes([k]) * 40, True)] for k in range(200)])
 
-    def test_the_same_seed_does_the_same(self):
+    def test_equal_seeds_give_equal_faults(self):
         told = [("drop", "0.2"), ("corrupt", "0.2"), ("duplicate", "0.2"), ("reorder", "0.2")]
         self.assertEqual(self.run_path(3, *told), self.run_path(3, *told))
         self.assertNotEqual(self.run_path(3, *told), self.run_path(4, *told))
@@ -85,7 +85,7 @@ class Frames(unittest.TestCase):
         self.assertEqual(sent, 200 - path.counts["dropped"] + path.counts["duplicated"])
         self.assertTrue(40 < path.counts["dropped"] < 160)
 
-    def test_a_broken_frame_is_not_the_frame(self):
+    def test_a_corrupt_frame_differs_from_the_original(self):
         for frame in self.run_path(5, ("corrupt", "1")):
             self.assertFalse(frame[0][1])
         self.assertTrue(all(sent[0][0] != bytes([k]) * 40 for k, sent in enumerate(self.run_path(5, ("corrupt", "1")))))

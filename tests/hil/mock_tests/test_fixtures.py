@@ -56,10 +56,10 @@ class ViperFixtures(unittest.TestCase):
         for station, position in enumerate(positions, 1):
             self.talk.player.place(station, Pose(position, TURNED))
 
-    def test_a_set_up_is_answered_to_the_byte(self):
+    def test_answers_a_set_up_as_in_the_fixture(self):
         self.set_up()
 
-    def test_poses_are_sent_to_the_byte(self):
+    def test_sends_poses_as_in_the_fixture(self):
         self.set_up()
         self.place()
         self.sends(1, "pose.none")
@@ -80,7 +80,7 @@ class ViperFixtures(unittest.TestCase):
         self.talk.player.place(1, Pose((0.0254, 0.0, -0.0508), (0.7071067811865476, 0.0, 0.0, 0.7071067811865476)))
         self.sends(9, "pose.inches_degrees")
 
-    def test_refusals_and_warnings_are_said_to_the_byte(self):
+    def test_sends_refusals_and_warnings_as_in_the_fixture(self):
         for fault, command, answer in (("slow-boot", "host.units.set", "nak.booting"),
                                        ("nak", "host.filter.set", "nak.filter"),
                                        ("nak-questions", "host.hemisphere.get", "nak.hemisphere"),
@@ -100,7 +100,7 @@ class Descriptors(unittest.TestCase):
         found = self.talk.device.control(Request(0x80, 6, value, 0, 4096))
         self.assertEqual(found.hex(), self.bytes[name].hex(), name)
 
-    def test_good_and_hostile_ones_are_these(self):
+    def test_good_and_hostile_ones_equal_the_fixture(self):
         self.reads("device", 0x0100)
         self.reads("good", 0x0200)
         for name in ("no-endpoints", "absurd-endpoints", "absurd-lengths"):
@@ -125,7 +125,7 @@ class Storms(unittest.TestCase):
         self.talk.device.step(now)
         return self.talk.heard()
 
-    def test_a_burst_is_the_latest_frame_again_four_times_a_second(self):
+    def test_a_burst_repeats_the_latest_frame_four_times_a_second(self):
         self.talk.faults.tell("burst", ["64"])
         frame = self.sent(10.0)
         whole = frame + b"".join(iter(self.talk.heard, None))
@@ -134,7 +134,7 @@ class Storms(unittest.TestCase):
         self.assertEqual(len(self.sent(10.1)), 60)
         self.assertGreater(len(self.sent(10.3)), 60000)
 
-    def test_a_false_start_comes_before_each_frame_and_is_none(self):
+    def test_a_false_preamble_precedes_each_frame(self):
         self.talk.faults.tell("false-preambles", [])
         for _ in range(50):
             sent = self.sent(1.0)
@@ -142,7 +142,7 @@ class Storms(unittest.TestCase):
             self.assertIn(sent[:4], (b"VPRP", b"VPRC"))
             self.assertEqual(split_commands(bytearray(sent[:-60])), [])
 
-    def test_its_clock_stands_on_command(self):
+    def test_clock_stops_on_command(self):
         clock = self.talk.device.clock_s
         self.assertEqual(clock(1.0), 1.0)
         self.talk.faults.tell("clock-stands", [])
@@ -167,13 +167,13 @@ class LibertyFixtures(unittest.TestCase):
         talk.device.step(talk.device._clock_zero + seconds)
         return talk.heard().hex()
 
-    def test_a_liberty_sends_them_to_the_byte(self):
+    def test_liberty_sends_poses_as_in_the_fixture(self):
         talk = self.streaming(LibertyHs, 4)
         talk.player.place(2, Pose((0.0625, 0.0, -0.125), TURNED))
         expected = self.bytes["pose.liberty"] + self.bytes["pose.liberty.second_sensor"]
         self.assertEqual(self.sent(talk, 1.5), expected.hex())
 
-    def test_a_patriot_sends_them_to_the_byte(self):
+    def test_patriot_sends_poses_as_in_the_fixture(self):
         talk = self.streaming(Patriot, 2)
         self.assertEqual(self.sent(talk, 1.5), self.bytes["pose.patriot"].hex())
         talk.faults.tell("distortion", ["200"])

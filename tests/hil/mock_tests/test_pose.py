@@ -35,7 +35,7 @@ class Poses(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "16 numbers"):
             from_matrix([1, 2, 3])
 
-    def test_an_inverse_undoes(self):
+    def test_inverse_undoes_a_pose(self):
         pose = Pose((0.3, -0.2, 0.7), QUARTER_TURN_ABOUT_Z)
         back = compose(inverse(pose), pose)
         self.assert_close(back.position, (0, 0, 0))

@@ -14,7 +14,7 @@ TEXT = f"""# two stations
 
 
 class PoseFiles(unittest.TestCase):
-    def test_the_latest_row_holds_exactly_as_written(self):
+    def test_uses_the_latest_row_unchanged(self):
         file = pose_file.parse(TEXT, "test")
         self.assertEqual(file.at(999_999), {})
         self.assertEqual(file.at(1_499_999)[1].position, (0.1, 0.2, 0.3))
@@ -22,7 +22,7 @@ class PoseFiles(unittest.TestCase):
         self.assertEqual(file.at(1_500_000)[2], Pose((0, 0, 1), (0, 1, 0, 0)))
         self.assertIsNone(file.at(2_000_000)[1])
 
-    def test_wrong_rows_are_named_by_their_line(self):
+    def test_reports_invalid_rows_with_their_line(self):
         for row, words in (("1,1,0,0,0,1,0,0,0", "9 fields"), ("1,1,0,0,0,0,0,0,0,1", "quaternion is zero"),
                            ("x,1,0,0,0,1,0,0,0,1", "invalid literal")):
             with self.assertRaisesRegex(ValueError, f"file:2: .*{words}"):
@@ -32,7 +32,7 @@ class PoseFiles(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no rows"):
             pose_file.parse(pose_file.HEADER, "file")
 
-    def test_a_row_that_is_written_reads_back(self):
+    def test_round_trip_of_a_row(self):
         pose = Pose((0.1, -1 / 3, 1e-9), (0.5, 0.5, -0.5, 0.5))
         file = pose_file.parse(pose_file.HEADER + "\n" + pose_file.row(7, 3, pose) + pose_file.row(8, 3, None), "test")
         self.assertEqual(file.at(7)[3], pose)
@@ -54,14 +54,14 @@ class Playing(unittest.TestCase):
         self.assertEqual(player.poses(100.3)[1].position, (0.4, 0.5, 0.6))
         self.assertEqual(player.poses(100.55)[1].position, (0.1, 0.2, 0.3))
 
-    def test_a_pose_put_by_hand_stays(self):
+    def test_a_manual_pose_overrides_the_file(self):
         player = Player()
         player.play(pose_file.parse(TEXT, "test"), 0.0)
         player.place(1, Pose((9, 9, 9)))
         self.assertEqual(player.poses(0.6)[1].position, (9, 9, 9))
         self.assertEqual(player.poses(0.6)[2].position, (0, 0, 1))
 
-    def test_a_station_that_is_taken_away_is_gone(self):
+    def test_removes_a_station(self):
         player = Player()
         player.place(3, Pose((1, 2, 3)))
         self.assertEqual(list(player.poses(0.0)), [1, 3])

@@ -27,7 +27,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(found.returncode, 0)
             self.assertIn(word, found.stdout)
 
-    def test_wrong_use_is_said(self):
+    def test_reports_wrong_use(self):
         for arguments, words in (((TRACKER,), "how the device is connected"),
                                  ((TRACKER, "--stdio", "--at", "soon"), "--at"),
                                  ((TRACKER, "--stdio", "--pty"), "not allowed with"),
@@ -38,7 +38,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(found.returncode, 2)
             self.assertIn(words, found.stderr)
 
-    def test_work_that_fails_is_said_in_one_line(self):
+    def test_reports_failures_in_one_line(self):
         for arguments in ((TRACKER, "--stdio", "--poses", "/nowhere.csv"), (TRACKER, "--tell", "/nowhere", "status"),
                           (TRACKER, "--usbredir", "/nowhere/socket"), (BUTTONS, "--socket", "/nowhere/socket")):
             found = run(*arguments)
@@ -83,7 +83,7 @@ class Running(unittest.TestCase):
             self.assertIsNone(self.process.poll())
             time.sleep(0.02)
 
-    def test_a_tracker_is_told_and_asked(self):
+    def test_a_tracker_obeys_commands_and_reports_its_status(self):
         log = os.path.join(self.folder.name, "log.csv")
         self.start(TRACKER, "--device", "patriot", "--stdio", "--log", log)
         self.process.stdin.write(b"U1\rF1\rC\r")
@@ -102,7 +102,7 @@ class Running(unittest.TestCase):
         self.assertEqual(control.tell(self.control, "status")["faults"], {})
         self.until(lambda: pose_file.load(log).at(1 << 60)[1].position == (0.5, 0.25, 0.0))
 
-    def test_the_program_tells_too(self):
+    def test_the_program_sends_commands(self):
         self.start(BUTTONS, "--usbredir", os.path.join(self.folder.name, "buttons"), "--at", "0s hold 3")
         told = run(BUTTONS, "--tell", self.control, "press", "1", "50ms")
         self.assertEqual(told.returncode, 0)

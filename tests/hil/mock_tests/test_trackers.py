@@ -55,12 +55,12 @@ class ViperBytes(unittest.TestCase):
             self.talk.say(command(number, 0, payload))
         self.talk.say(command(19, 0))
 
-    def test_commands_put_together_by_hand_are_understood(self):
+    def test_parses_hand_made_commands(self):
         for data, number in ((CONTINUOUS_SET, 19), (UNITS_SET, 7)):
             self.assertEqual(long_division(data[:-4]), data[-4:])
             self.assertEqual([found[:2] for found in split_commands(bytearray(data))], [(number, 0)])
 
-    def test_a_pose_frame_is_what_is_put_together_by_hand(self):
+    def test_a_pose_frame_equals_a_hand_made_one(self):
         self.set_up()
         self.talk.player.place(2, Pose((0.25, -0.5, 1.0), (0.5, 0.5, -0.5, 0.5)))
         self.talk.player.place(1, Pose((0.0, 2.0, -0.125)))
@@ -72,17 +72,17 @@ class ViperBytes(unittest.TestCase):
             "010B3200 0000803E 000000BF 0000803F 0000003F 0000003F 000000BF 0000003F")
         self.assertEqual(self.talk.heard(), expected + long_division(expected))
 
-    def test_an_answer_is_what_is_put_together_by_hand(self):
+    def test_an_answer_equals_a_hand_made_one(self):
         expected = bytes.fromhex("56505243 18000000 61AE0A00 13000000 03000000 00000000 00000000")
         self.assertEqual(self.talk.say(CONTINUOUS_SET), expected + long_division(expected))
 
-    def test_settings_are_kept_and_read_back_and_forgotten_without_power(self):
+    def test_settings_are_kept_until_power_off(self):
         self.talk.say(UNITS_SET)
         self.assertEqual(self.talk.say(command(7, 1))[28:36], struct.pack("<II", 3, 2))
         self.talk.device.start_anew()
         self.assertEqual(self.talk.say(command(7, 1))[28:36], struct.pack("<II", 0, 0))
 
-    def test_its_two_filters_are_switched_off_each_and_read_back(self):
+    def test_switches_off_each_filter_and_reads_it_back(self):
         def filters():
             return [struct.unpack("<I", self.talk.say(command(1, 1, arg2=which))[28:32])[0] for which in (1, 2)]
 
@@ -104,20 +104,20 @@ class ViperBytes(unittest.TestCase):
         for found, expected in zip(record[1:], (1.0, 0.0, -2.0, 90.0, 0.0, 0.0, 0.0)):
             self.assertAlmostEqual(found, expected, places=4)
 
-    def test_a_command_in_pieces_and_after_garbage_is_understood(self):
+    def test_parses_split_commands_after_garbage(self):
         self.assertIsNone(self.talk.say(b"VPRxVPRC" + CONTINUOUS_SET[:10]))
         self.assertIsNone(self.talk.say(CONTINUOUS_SET[10:20]))
         self.assertIsNotNone(self.talk.say(CONTINUOUS_SET[20:]))
         self.assertTrue(self.talk.device.streaming)
 
-    def test_a_broken_command_is_not_carried_out(self):
+    def test_ignores_corrupt_commands(self):
         for at in range(4, len(CONTINUOUS_SET)):
             broken = bytearray(CONTINUOUS_SET)
             broken[at] ^= 4
             self.talk.say(bytes(broken))
         self.assertFalse(self.talk.device.streaming)
 
-    def test_what_it_refuses(self):
+    def test_rejects_invalid_commands(self):
         for bad in (command(6, 0, struct.pack("<I", 6)), command(7, 0, b"\0"), command(99, 0), command(7, 3),
                     command(1, 1), command(1, 1, arg2=3), command(1, 0, bytes(16)), command(0, 1, arg1=0xFFFFFFFF)):
             answer = self.talk.say(bad)
@@ -125,11 +125,11 @@ class ViperBytes(unittest.TestCase):
             self.assertEqual(struct.unpack("<I", answer[28:32]), (2,))
             self.assertEqual(len(answer), 32 + 180)
 
-    def test_booting_is_said(self):
+    def test_reports_that_it_boots(self):
         self.talk.faults.tell("slow-boot", [])
         self.assertEqual(struct.unpack("<I", self.talk.say(CONTINUOUS_SET)[28:32]), (1,))
 
-    def test_who_it_is(self):
+    def test_whoami_answer_has_its_length(self):
         self.assertEqual(len(self.talk.say(command(20, 1))), 32 + 192)
 
     def test_a_single_pose_has_its_count_at_40_and_its_record_at_44(self):
@@ -144,7 +144,7 @@ class PatriotBytes(unittest.TestCase):
     def setUp(self):
         self.talk = Talk(Patriot)
 
-    def test_its_texts(self):
+    def test_answers_text_commands(self):
         self.assertEqual(self.talk.say(b"U\r"), b"00U 0\r\n")
         self.assertIsNone(self.talk.say(b"U1\rX0,1,0,0\r@B0\rH*,1,0,0\r"))
         self.assertEqual(self.talk.say(b"U\r"), b"00U 1\r\n")
@@ -152,7 +152,7 @@ class PatriotBytes(unittest.TestCase):
         self.assertIn(b"ERROR", self.talk.say(b"?\r"))
         self.assertIn(b"ERROR", self.talk.say(b"O*,2,4\r"))
 
-    def test_a_frame_is_what_is_put_together_by_hand(self):
+    def test_a_frame_equals_a_hand_made_one(self):
         self.assertIsNone(self.talk.say(b"U1\rO*,8,9,11,3,7\rF1\rC\r"))
         self.talk.player.place(1, Pose((0.25, -0.5, 1.0), (0.5, 0.5, -0.5, 0.5)))
         self.talk.device.step(self.talk.device._clock_zero + 1.5)
@@ -160,25 +160,25 @@ class PatriotBytes(unittest.TestCase):
             "5041 01 43 20 00 2800 DC050000 01000000 00000000"
             "0000C841 000048C2 0000C842 0000003F 0000003F 000000BF 0000003F"))
 
-    def test_p_stops_what_runs_and_else_asks_for_one(self):
+    def test_p_stops_streaming_or_requests_one_pose(self):
         self.talk.say(b"F1\rC\r")
         self.assertIsNone(self.talk.say(b"P"))
         self.assertFalse(self.talk.device.streaming)
         self.assertEqual(self.talk.say(b"P")[:4], b"PA\x01P")
 
-    def test_a_pose_that_is_not_ok_bears_an_error(self):
+    def test_a_missing_pose_has_an_error_code(self):
         self.talk.say(b"F1\rC\r")
         self.talk.player.place(1, None)
         self.talk.device.step(0.0)
         self.assertNotEqual(self.talk.heard()[4:5], b" ")
 
-    def test_a_liberty_calls_itself_so(self):
+    def test_a_liberty_frame_begins_with_its_name(self):
         talk = Talk(LibertyHs, 4)
         talk.say(b"F1\rC\r")
         talk.device.step(0.0)
         self.assertEqual(talk.heard()[:2], b"LY")
 
-    def test_without_firmware_it_says_nothing(self):
+    def test_is_silent_without_firmware(self):
         self.assertIsNone(Talk(PatriotUnloaded).say(b"\x16\rP"))
         self.assertEqual(PatriotUnloaded.product_id, 0xEF11)
 
@@ -208,7 +208,7 @@ class HidBytes(unittest.TestCase):
 
 
 class Descriptors(unittest.TestCase):
-    def test_a_viper_as_its_host_reads_it(self):
+    def test_viper_descriptors_equal_hand_made_ones(self):
         device = Talk(Viper).device
         self.assertEqual(device.control(Request(0x80, 6, 0x0100, 0, 18)), bytes.fromhex(
             "12 01 0002 00 00 00 40 440F 01BF 0001 01 02 03 01"))
@@ -233,7 +233,7 @@ class Descriptors(unittest.TestCase):
         device.send(IN | 1, b"two")
         self.assertEqual(device.take(IN | 1, 64), b"one")
 
-    def test_what_a_host_does_not_read_is_lost_from_its_beginning(self):
+    def test_discards_the_oldest_unread_reports(self):
         device = Talk(HidTracker).device
         for k in range(20):
             device.send(IN | 1, bytes([k]))

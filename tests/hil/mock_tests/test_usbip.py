@@ -32,7 +32,7 @@ class Usbip(unittest.IsolatedAsyncioTestCase):
         self.assertEqual(record[288:], bytes.fromhex("00000001 00000002 00000002 1234 5678 0100 000000 01 01 01"))
         return reader, writer
 
-    async def test_the_list(self):
+    async def test_lists_the_device(self):
         reader, writer = await self.opens()
         writer.write(bytes.fromhex("0111 8005 00000000"))
         await self.hears(reader, "0111 0005 00000000 00000001")
@@ -45,7 +45,7 @@ class Usbip(unittest.IsolatedAsyncioTestCase):
         await self.hears(reader, "0111 0003 00000001")
         writer.close()
 
-    async def test_transfers_put_together_by_hand(self):
+    async def test_answers_hand_made_transfers(self):
         reader, writer = await self.imports()
         head = "{:08X} {:08X} 00010002 {:08X} {:08X} 00000000 {:08X} 00000000 FFFFFFFF 00000000 "
         answer = "{:08X} {:08X} 00000000 00000000 00000000 {:08X} {:08X} 00000000 00000000 00000000 0000000000000000 "

@@ -7,7 +7,7 @@ from mocks.cp2112 import Cp2112
 
 
 class Bulk(UsbredirHost):
-    async def test_a_device_is_announced_as_put_together_by_hand(self):
+    async def test_announcement_equals_a_hand_made_one(self):
         await self.hears("00000000 44000000 00000000")
         await self.skips(64)
         await self.hears("7A000000")
@@ -35,7 +35,7 @@ class Bulk(UsbredirHost):
         self.says("06000000 01000000 0900000000000000 01")
         await self.hears("08000000 02000000 0900000000000000 00 01")
 
-    async def test_bulk_there_and_back(self):
+    async def test_bulk_round_trip(self):
         await self.connects()
         self.says("65000000 0A000000 0500000000000000 81 00 0010 00000000 0000")  # read 4096 bytes
         self.says("65000000 0D000000 0600000000000000 02 00 0300 00000000 0000 010203")
@@ -73,7 +73,7 @@ class Bulk(UsbredirHost):
         self.device.hang(False)
         await self.hears("65000000 0A000000 0600000000000000 02 00 0100 00000000 0000")
 
-    async def test_a_reset_of_the_port_is_told_to_the_device(self):
+    async def test_a_port_reset_reaches_the_device(self):
         await self.connects()
         resets = []
         self.device.was_reset = lambda: resets.append(True)
@@ -82,7 +82,7 @@ class Bulk(UsbredirHost):
         await self.skips(16 + 12)
         self.assertEqual(resets, [True])
 
-    async def test_another_virtual_machine_after_the_first(self):
+    async def test_a_second_virtual_machine_can_connect(self):
         await self.connects()
         self.writer.close()
         await self.writer.wait_closed()
@@ -107,7 +107,7 @@ class Buttons(UsbredirHost):
         self.says(read_pins)
         await self.hears(answer + "FD")
 
-    async def test_lamps_are_what_the_host_writes_to_outputs(self):
+    async def test_lamps_follow_the_outputs(self):
         await self.connects()
         self.says("64000000 0F000000 0100000000000000 00 09 21 00 0203 0000 0500 02 80 FF 00 00")  # pin 7 is an output
         await self.hears("64000000 0A000000 0100000000000000 00 09 21 00 0203 0000 0500")

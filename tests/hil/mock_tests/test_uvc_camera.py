@@ -28,7 +28,7 @@ def decoded(jpeg, width, height):
 
 
 class Picture(unittest.TestCase):
-    def test_has_its_number_and_its_codes(self):
+    def test_contains_its_number_and_brightness(self):
         for number in (0, 1, 0x5A5A, 0xFFFF):
             luma = test_picture.luma(*SMALL, number)
             self.assertEqual(len(luma), SMALL[0] * SMALL[1])
@@ -50,7 +50,7 @@ class Picture(unittest.TestCase):
         self.assertEqual(data[0::2], bytes(luma))
         self.assertEqual(set(data[1::2]), {128})
 
-    def test_as_jpeg_is_what_libjpeg_reads(self):
+    def test_jpeg_decodes_with_libjpeg(self):
         for number, light in ((0, "usual"), (0x1234, "usual"), (5, "dark"), (6, "blind")):
             meant = test_picture.luma(*SMALL, number, light)
             found = decoded(test_picture.jpeg(*SMALL, meant), *SMALL)
@@ -112,13 +112,13 @@ class Camera(UsbredirHost):
             payloads.append(payload)
         return payloads
 
-    async def test_agrees_on_what_it_has(self):
+    async def test_negotiates_available_formats(self):
         answer = self.commit(format_=9, size=2, interval=700_000)
         self.assertEqual(struct.unpack_from("<HBBI", answer), (1, 2, 2, 666_666))
         self.assertEqual(struct.unpack_from("<II", answer, 18), (2 * 320 * 240, PAYLOAD_BYTES))
         self.assertEqual(self.console.execute("status")["format"], "mjpeg")
 
-    async def test_a_frame_is_payloads_of_which_the_last_says_so(self):
+    async def test_marks_the_last_payload_of_a_frame(self):
         self.commit()
         first, second = self.frame(), self.frame()
         self.assertEqual([len(payload) for payload in first], [PAYLOAD_BYTES, PAYLOAD_BYTES, 38400 - 2 * (PAYLOAD_BYTES - 2) + 2])
@@ -137,7 +137,7 @@ class Camera(UsbredirHost):
         self.assertFalse(self.device.streams)
         self.assertIsNone(self.device.take(STREAM, PAYLOAD_BYTES))
 
-    async def test_controls_keep_what_they_are_told(self):
+    async def test_controls_keep_their_values(self):
         def control(kind, key, data=b"", length=4):
             return self.device.control(Request(0xA1 if kind & 0x80 else 0x21, kind, key[1] << 8, key[0] << 8, length), data)
 
@@ -151,7 +151,7 @@ class Camera(UsbredirHost):
         self.assertEqual(control(SET_CUR, AUTO_EXPOSURE, b"\x08"), b"")
         self.assertEqual(control(GET_CUR, AUTO_EXPOSURE), b"\x01")
 
-    async def test_faults_do_what_they_say(self):
+    async def test_faults_change_the_stream(self):
         self.commit()
         self.console.execute("freeze")
         self.assertEqual([payload[2:] for payload in self.frame()], [payload[2:] for payload in self.frame()])
@@ -171,7 +171,7 @@ class Camera(UsbredirHost):
         with self.assertRaises(ValueError):
             self.console.execute("drop 0.1")  # a tracker's
 
-    async def test_plays_a_picture_where_its_size_was_agreed_on(self):
+    async def test_plays_a_picture_only_at_its_size(self):
         meant = bytes(random.Random(1).choices(range(253), k=SMALL[0] * SMALL[1]))
         with tempfile.TemporaryDirectory() as folder:
             file = f"{folder}/a picture.pgm"
@@ -191,10 +191,10 @@ class Camera(UsbredirHost):
         self.console.execute("play off")
         self.assertEqual(b"".join(payload[2:] for payload in self.frame()), test_picture.yuyv(*SMALL, test_picture.luma(*SMALL, 5)))
 
-    async def test_the_brightest_picture_carries_over_into_no_neighbour(self):
+    async def test_noise_does_not_overflow_a_white_picture(self):
         self.assertGreaterEqual(min(test_picture.with_noise(b"\xff" * 999, 1)), 252)
 
-    async def test_what_it_cannot_play_is_said(self):
+    async def test_reports_pictures_that_it_cannot_play(self):
         with tempfile.TemporaryDirectory() as folder:
             for content, words in ((b"P5 32 20 255\n" + bytes(640), "160 x 120, 320 x 240"), (b"P5 160 120 255\n" + bytes(9), "found 9"),
                                    (b"P6 1 1 255\n123", "not a binary PGM")):
