@@ -43,6 +43,26 @@ if [[ -n $locked ]]; then
     while read -r name version; do
         printf 'Package: %s\nPin: version %s\nPin-Priority: 1001\n\n' "$name" "$version"
     done <"$work/locked" >"$work/preferences"
+    # Runs inside mmdebstrap once Debian's lists are there, so that it names missing versions before anything is installed. The candidate is
+    # the pinned version if Debian has it, and otherwise Debian's newest version.
+    cat >"$work/versions_hook" <<HOOK
+set -eu
+export APT_CONFIG=\$MMDEBSTRAP_APT_CONFIG
+cut -d ' ' -f 1 "$work/locked" | xargs apt-cache policy | awk '
+    NR == FNR { listed[++count] = \$1; version[\$1] = \$2; next }
+    /^[^ ]/ { package = substr(\$1, 1, length(\$1) - 1) }
+    \$1 == "Candidate:" { candidate[package] = \$2 }
+    END {
+        for (k = 1; k <= count; ++k) {
+            package = listed[k]
+            if (!(package in candidate) || candidate[package] != version[package]) {
+                print "--locked has: " package, version[package]
+                print "Debian has:  " (package in candidate ? package " " candidate[package] : "no package of this name")
+            }
+        }
+    }' "$work/locked" - >"$work/differences"
+! [ -s "$work/differences" ]
+HOOK
 fi
 
 # Runs inside mmdebstrap with the new root as $1.
@@ -70,27 +90,6 @@ rm -rf "\$root"/var/cache/* "\$root"/var/lib/apt "\$root"/var/log/*
 for left_out in man locale info lintian bug i18n; do
     rm -rf "\$root/usr/share/\$left_out"/*
 done
-HOOK
-
-# Runs inside mmdebstrap once Debian's lists are there, so that it names missing versions before anything is installed. The candidate is
-# the pinned version if Debian has it, and otherwise Debian's newest version.
-cat >"$work/versions_hook" <<HOOK
-set -eu
-export APT_CONFIG=\$MMDEBSTRAP_APT_CONFIG
-cut -d ' ' -f 1 "$work/locked" | xargs apt-cache policy | awk '
-    NR == FNR { listed[++count] = \$1; version[\$1] = \$2; next }
-    /^[^ ]/ { package = substr(\$1, 1, length(\$1) - 1) }
-    \$1 == "Candidate:" { candidate[package] = \$2 }
-    END {
-        for (k = 1; k <= count; ++k) {
-            package = listed[k]
-            if (!(package in candidate) || candidate[package] != version[package]) {
-                print "--locked has: " package, version[package]
-                print "Debian has:  " (package in candidate ? package " " candidate[package] : "no package of this name")
-            }
-        }
-    }' "$work/locked" - >"$work/differences"
-! [ -s "$work/differences" ]
 HOOK
 
 include=$(IFS=,; echo "${install[*]}")

@@ -156,19 +156,20 @@ TEST_F(SlowestTimes, AreListedFromALargeTable) {
 
 } // namespace
 
-/// A name that begins with one of these words is no statement, such as WhatIsWrongIsSaid.
-TEST(House, TestNamesDoNotBeginWithARelativePronoun) {
-    const std::regex macro(R"(^TEST(?:_F|_P)?\(\w+, *(?:DISABLED_)?(\w+)\))");
-    const std::regex method(R"(^ +(?:async )?def test_(\w+)\()");
-    const std::regex pronoun(
-        "(Of|What|Who|Whose|Where|Nobody)([A-Z_].*|$)|(of|what|who|whose|where|nobody)(_.*|$)");
+/// A name that begins with one of these words states no behaviour, such as WhatIsWrongIsSaid.
+TEST(House, TestNamesBeginWithASubjectOrAVerb) {
+    const std::set<std::string> refused{"of", "what", "who", "whose", "where", "nobody"};
+    const std::regex macro(R"(^TEST(?:_F|_P)?\(\w+, *(?:DISABLED_)?([A-Za-z][a-z]*))");
+    const std::regex method(R"(^ +(?:async )?def test_([a-z]+))");
     std::size_t names = 0;
     for (const fs::path& file : files_ending({".cpp", ".py"})) {
         for (const std::string& line : lines_of(file)) {
             std::smatch found;
             if (std::regex_search(line, found, file.extension() == ".py" ? method : macro)) {
                 ++names;
-                EXPECT_FALSE(std::regex_match(found[1].str(), pronoun)) << file << ": " << found[1];
+                std::string word = found[1];
+                word[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(word[0])));
+                EXPECT_FALSE(refused.contains(word)) << file << ": " << line;
             }
         }
     }
