@@ -216,10 +216,10 @@ class Bench:
     def probe(self):
         return screen.probe(self.screendump())
 
-    def picture_of(self, pose, eye_m=EYE_M, timeout_s=20.0):
+    def picture_of(self, pose, eye_m=EYE_M, timeout_s=20.0, after=None):
         """Waits until the exhibit reports that it presented this pose without a fade; returns that picture or a
-        later one from the screen."""
-        return self.picture_where(lambda placed: near(placed, pose, eye_m), pose, timeout_s)
+        later one from the screen. `after`: a picture; what faded in it has ended."""
+        return self.picture_where(lambda placed: near(placed, pose, eye_m), pose, timeout_s, after)
 
     def resting_picture_of(self, pose):
         """Places the prop upright; returns the picture once its filtered pose rests: two pictures, a second apart, are equal."""
@@ -233,13 +233,15 @@ class Bench:
 
         return eventually(rests, 30.0, "the picture does not come to rest")
 
-    def picture_where(self, is_it, what, timeout_s=20.0):
+    def picture_where(self, is_it, what, timeout_s=20.0, after=None):
         """As picture_of, for a presented picture that is_it() accepts."""
+        first = screen.probe(after) if after else None
         last = [None]
 
         def presented():
             last[0] = (self.status() or {}).get("presented")
-            found = last[0] and last[0]["settled"] and last[0]["code"] is not None and is_it(last[0])
+            found = (last[0] and last[0]["settled"] and last[0]["code"] is not None and is_it(last[0])
+                     and (first is None or screen.not_before(last[0]["code"], first)))
             return last[0] if found else None
 
         code = eventually(presented, timeout_s, lambda: f"no picture is presented of {what}, at last {last[0]}")["code"]
@@ -247,7 +249,7 @@ class Bench:
         def shown():
             picture = self.screendump()
             seen = screen.probe(picture)
-            return picture if seen is not None and (seen - code) % screen.CODES < screen.CODES // 2 else None
+            return picture if seen is not None and screen.not_before(seen, code) else None
 
         return eventually(shown, timeout_s, f"picture {code} was presented, but neither it nor a later one is shown")
 

@@ -209,6 +209,11 @@ def probe(picture):
     return _code(picture, 1, 2)
 
 
+def not_before(code, other):
+    """Whether the picture with this code is the one with the other code or a later one. Codes begin anew after CODES pictures."""
+    return (code - other) % CODES < CODES // 2
+
+
 def safe_probe(picture):
     """The code in the corner of the safe picture."""
     return _code(picture, 3, 4)
