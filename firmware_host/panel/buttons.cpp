@@ -90,10 +90,11 @@ void Buttons::calm_down(MonotonicTime now, std::size_t which, std::vector<PanelE
     events.push_back({button.level_since + times_.quiet, static_cast<int>(which), PressKind::Freed});
 }
 
-/// Reports the events of a button that stays down.
+/// Reports the events of a button that stays down. One that is up is not known to have stayed down until now, even if
+/// that level has not lasted for the debounce time yet: after a late sample it may have been up for long.
 void Buttons::hold(MonotonicTime now, std::size_t which, std::vector<PanelEvent>& events) {
     Button& button = buttons_[which];
-    if (!button.down || button.stuck || button.chatters) {
+    if (!button.down || !button.level || button.stuck || button.chatters) {
         return;
     }
     const int number = static_cast<int>(which);
@@ -113,7 +114,8 @@ void Buttons::hold_chord(MonotonicTime now, std::vector<PanelEvent>& events) {
         chord_said_ = false;
         return;
     }
-    if (!chord_said_ && now - *since >= times_.chord) {
+    const bool down = buttons_.front().level && buttons_.back().level; // as in `hold`
+    if (!chord_said_ && down && now - *since >= times_.chord) {
         chord_said_ = true;
         buttons_.front().mute = true;
         buttons_.back().mute = true;
@@ -135,7 +137,7 @@ std::optional<MonotonicTime> Buttons::due() const {
     std::optional<MonotonicTime> next;
     const auto consider = [&next](MonotonicTime time) { next = next ? std::min(*next, time) : time; };
     const std::optional<MonotonicTime> chord = chord_since();
-    if (chord && !chord_said_) {
+    if (chord && !chord_said_ && buttons_.front().level && buttons_.back().level) {
         consider(*chord + times_.chord);
     }
     for (const Button& button : buttons_) {
@@ -145,8 +147,7 @@ std::optional<MonotonicTime> Buttons::due() const {
         }
         if (button.level != button.down) {
             consider(button.level_since + times_.debounce);
-        }
-        if (button.down && !button.stuck) {
+        } else if (button.down && !button.stuck) {
             consider(button.down_since + times_.stuck);
             if (button.pressed && !button.mute && !chord) {
                 consider(button.down_since + times_.long_press);

@@ -400,6 +400,33 @@ TEST(Buttons, AcceptsAnySamplingIntervalAndIgnoresOlderSamples) {
     EXPECT_FALSE(buttons.due());
 }
 
+TEST(Buttons, AReleaseDuringALateSampleIsNoLongPress) {
+    const std::array<bool, 3> none{}, second{false, true, false}, outer{true, false, true};
+    for (const std::array<bool, 3>& held : {second, outer}) {
+        Buttons buttons(3, {});
+        std::vector<PanelEvent> events;
+        buttons.sample(start, none, events);
+        buttons.sample(start + milliseconds(10), held, events);
+        buttons.sample(start + milliseconds(40), held, events);
+        const auto presses = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
+        ASSERT_EQ(events.size(), presses);
+        for (const int late_ms : {5000, 5010, 5030, 9000}) { // the button was released at any time before
+            buttons.sample(start + milliseconds(late_ms), none, events);
+        }
+        EXPECT_EQ(events.size(), presses) << "more than its press";
+        EXPECT_FALSE(buttons.due());
+        // A bounce at the time of a long press only delays its report.
+        buttons.sample(start + milliseconds(10'000), second, events);
+        buttons.sample(start + milliseconds(10'100), second, events);
+        buttons.sample(start + milliseconds(11'500), none, events);
+        EXPECT_EQ(*buttons.due(), start + milliseconds(11'530));
+        buttons.sample(start + milliseconds(11'505), second, events);
+        ASSERT_EQ(events.size(), presses + 2);
+        EXPECT_EQ(events.back().kind, PressKind::LongPress);
+        EXPECT_EQ(events.back().time, start + milliseconds(11'500));
+    }
+}
+
 TEST(Buttons, SamplingOnlyWhenDueEqualsConstantSampling) {
     std::mt19937 engine(7);
     for (int run = 0; run < 40; ++run) {
