@@ -15,7 +15,7 @@ namespace {
 volatile std::sig_atomic_t status_of_end = 0;
 
 extern "C" void end_now(int) {
-    constexpr std::string_view line = "frustumscreen: a device did not stop in time; ended without it\n";
+    constexpr std::string_view line = "frustumscreen: did not stop in time; ended at once\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
     ::_exit(status_of_end);
 }
