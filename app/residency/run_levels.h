@@ -156,6 +156,8 @@ public:
     [[nodiscard]] std::optional<scene::PlacedLevel> in_layer(std::size_t layer) const;
     /// Records that the latest `draw` took `ms` until its picture was complete.
     void record_time(MonotonicTime now, double ms);
+    /// True while one level fades into another.
+    [[nodiscard]] bool fades() const { return coming_.has_value(); }
 
     [[nodiscard]] LevelState state() const;
 

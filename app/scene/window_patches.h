@@ -33,6 +33,8 @@ public:
     /// One patch follows another without a fade, because neighbours are alike.
     void step(const ldi::PointPatch* ready, double share);
     [[nodiscard]] const ShownPoints& shown() const { return shown_; }
+    /// True if the eye is shown both.
+    [[nodiscard]] bool fades() const { return shown_.share > 0.0F && shown_.share < 1.0F; }
 
 private:
     ShownPoints shown_{.points = nullptr, .share = 0.0F};

@@ -244,9 +244,12 @@ ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
     const residency::RunLevels* const shown = artifact_cache.find(presentation.artifact);
     residency::LevelState levels = shown != nullptr ? shown->state() : residency::LevelState{};
     const residency::RunCells* const cells = artifact_cache.find_cells(presentation.artifact);
+    bool fades = cells != nullptr && cells->fades();
     if (cells != nullptr && cells->shows()) {
         levels.level = residency::level_of_cells;
         levels.error = cells->error();
+    } else if (shown != nullptr) {
+        fades = fades || shown->fades();
     }
     levels.technique = kept(levels.technique);
     levels.switches = past_switches_ + artifact_cache.switches();
@@ -254,8 +257,7 @@ ShowState ArtifactShow::state(const exhibit::Presentation& presentation) const {
     ShowState state{.artifact = kept(artifact_cache.known(presentation.artifact).outline.description.title),
                     .language = kept(presentation.language),
                     .levels = levels,
-                    .settled = presentation.settled && (cells == nullptr || !cells->fades()) &&
-                               !(windows_ && windows_->fades())};
+                    .settled = presentation.settled && !fades && !(windows_ && windows_->fades())};
     state.stands = presentation.attracts ? std::optional(presentation.table_from_prop) : std::nullopt;
     state.left_out = artifact_cache.left_out();
     state.lamps = presentation.lamps;

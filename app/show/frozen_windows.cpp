@@ -149,8 +149,7 @@ void FrozenWindows::give_job(Window& window) {
     }
 }
 
-void FrozenWindows::fade(Window& window, std::span<const glm::dvec3> eyes, MonotonicTime now,
-                         double fade_s) const {
+void FrozenWindows::fade(Window& window, std::span<const glm::dvec3> eyes, MonotonicTime now, double fade_s) {
     const double passed_s = window.faded_to ? to_seconds(now - *window.faded_to) : 0.0;
     window.faded_to = now;
     std::array<scene::WindowPatches::OfEye, 2> seen{};
@@ -159,6 +158,7 @@ void FrozenWindows::fade(Window& window, std::span<const glm::dvec3> eyes, Monot
         const ldi::PointPatch* const ready = scene::points_for(window.job->patches(), eyes[k]);
         window.fades[k].step(ready, waits_ ? 1.0 : passed_s / fade_s);
         seen[k] = {.eye = eyes[k], .shown = window.fades[k].shown()};
+        fades_now_ = fades_now_ || window.fades[k].fades();
     }
     window.job->show(std::span(seen).first(count));
 }
@@ -201,6 +201,7 @@ void FrozenWindows::step(std::span<const exhibit::PresentedWindow> windows) {
         worker_->look_again();
     }
     has_news_ = false;
+    fades_ = std::exchange(fades_now_, false);
 }
 
 } // namespace frustumscreen::show

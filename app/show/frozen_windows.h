@@ -75,6 +75,8 @@ public:
     /// Call once a frame, after all `look`: forgets windows that are not among these, and gives the worker thread its
     /// work.
     void step(std::span<const exhibit::PresentedWindow> windows);
+    /// True if a window of the frame of the latest `step` shows both its parts and points.
+    [[nodiscard]] bool fades() const { return fades_; }
 
     [[nodiscard]] std::size_t size() const { return windows_.size(); }
     [[nodiscard]] bool has_thread() const { return worker_ != nullptr; }
@@ -89,7 +91,7 @@ private:
         std::optional<MonotonicTime> faded_to;
     };
     /// Sets what the eyes see. A window that waits is not faded.
-    void fade(Window& window, std::span<const glm::dvec3> eyes, MonotonicTime now, double fade_s) const;
+    void fade(Window& window, std::span<const glm::dvec3> eyes, MonotonicTime now, double fade_s);
     /// Gives the window a job, if one is free.
     void give_job(Window& window);
     /// Forgets the windows for which `is_gone` is true.
@@ -103,6 +105,8 @@ private:
     std::vector<Window> windows_;
     std::uint64_t last_number_ = 0; ///< of jobs
     bool has_news_ = false;         ///< for the thread
+    bool fades_ = false;            ///< in the latest frame
+    bool fades_now_ = false;        ///< in this frame so far
     std::array<PatchJob, std::size_t{2} * settings::max_windows> jobs_{};
     std::unique_ptr<PatchWorker> worker_; ///< last: its thread uses the jobs
 };

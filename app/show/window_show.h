@@ -67,7 +67,7 @@ public:
     [[nodiscard]] std::span<const scene::PlacedWindow>
     place(MonotonicTime now, const exhibit::Presentation& presentation, std::span<const glm::dvec3> eyes_m,
           const residency::ArtifactCache& cache, std::span<const scene::PlacedTorch> torches);
-    /// True if a window in the latest picture fades: from one level to another, or its light.
+    /// True if a window in the latest picture fades: from one level to another, from its parts to points, or its light.
     [[nodiscard]] bool fades() const;
     /// True if torches in a window throw pictures, films or layers of the artifact, which must stay until it has faded.
     [[nodiscard]] bool shows_contents_of(std::size_t artifact) const;

@@ -279,7 +279,7 @@ bool WindowShow::fades() const {
                    return region.coming.has_value();
                });
     };
-    return fades(preview_) || std::any_of(held_.begin(), held_.end(), fades);
+    return frozen_.fades() || fades(preview_) || std::any_of(held_.begin(), held_.end(), fades);
 }
 
 bool WindowShow::shows_contents_of(std::size_t artifact) const {

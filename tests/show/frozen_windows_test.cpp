@@ -108,9 +108,11 @@ TEST(FrozenWindows, WaitingModeMakesAllPatchesInTheFirstFrameWithoutAThread) {
     EXPECT_FALSE(windows.has_thread());
 }
 
-/// The share of points that the eye is shown at a time.
+/// Draws a frame, and returns the share of points that the eye is shown in it.
 double share_at(FrozenWindows& windows, MonotonicTime time, const glm::dvec3& eye) {
     const scene::ShownPoints shown = scene::shown_to(*windows.look(1, {&eye, 1}, time), eye);
+    const exhibit::PresentedWindow window = presented(1);
+    windows.step({&window, 1});
     return shown.points != nullptr ? static_cast<double>(shown.share) : 0.0;
 }
 
@@ -128,16 +130,21 @@ TEST(FrozenWindows, FadeToTheirPatchesAndBackInHalfASecond) {
             time += milliseconds(20);
             const double next = share_at(windows, time, eye);
             EXPECT_NEAR(next - share, (goal - 0.5) * 0.08, 1e-5) << frame;
+            EXPECT_TRUE(windows.fades()) << frame;
             share = next;
         }
         time += milliseconds(100);
         share = share_at(windows, time, eye);
         EXPECT_EQ(share, goal);
+        EXPECT_FALSE(windows.fades());
     }
     // An eye that comes back meanwhile turns the fade around.
     share_at(windows, time += milliseconds(100), far);
     EXPECT_NEAR(share_at(windows, time += milliseconds(100), far), 0.6, 1e-5);
     EXPECT_NEAR(share_at(windows, time += milliseconds(100), above), 0.8, 1e-5);
+    const exhibit::PresentedWindow dark = presented(1); // nobody looks at it
+    windows.step({&dark, 1});
+    EXPECT_FALSE(windows.fades());
 }
 
 TEST(FrozenWindows, EachEyeHasItsOwnFade) {

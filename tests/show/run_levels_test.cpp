@@ -131,6 +131,7 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
     const image::Image8 to = show.picture(coarse);
     const image::Image8 from = show.picture(fine);
     show.frame = start;
+    EXPECT_TRUE(levels.fades());
     std::size_t last_coming = 0;
     const int fade_frames = static_cast<int>(std::lround(residency::level_fade_s / 0.02));
     for (int k = 1; k <= fade_frames; ++k) {
@@ -145,6 +146,7 @@ TEST(RunLevels, FadeToACoarserLevelWhenTheDeadlineIsMissed) {
         levels.record_time(show.now(), 9.0); // a frame of two levels is ignored by the governor
     }
     EXPECT_EQ(show.picture(levels).texels, to.texels);
+    EXPECT_FALSE(levels.fades());
     EXPECT_EQ(levels.state().level, "level0");
     EXPECT_EQ(levels.state().switches, 1U);
     EXPECT_FALSE(show.draw(levels).drawn); // at rest again
