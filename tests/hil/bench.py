@@ -40,6 +40,7 @@ TURN_TOLERANCE = math.radians(0.2)
 OTHER_TRACKERS = ("patriot", "hid")  # besides the VIPER that most tests use; unplugged until a test needs them
 MAX_RESTS = 4  # pauses of 50 ms between two evaluations of a condition
 RELEASED_S = 1.0  # after which the exhibit has noticed that a button was released
+RELEASED_READS = 32  # of the pins; as RELEASED_S, if the host stands still meanwhile
 
 
 class Mock:
@@ -81,10 +82,11 @@ def eventually(condition, timeout_s, otherwise):
     deadline = Patience.clock() + timeout_s
     rests = 1
     while True:
+        is_last = Patience.clock() > deadline  # what is seen before the host stops is not judged after it
         found = condition()
         if found:
             return found
-        if Patience.clock() > deadline:
+        if is_last:
             raise AssertionError(f"{otherwise() if callable(otherwise) else otherwise} (after {timeout_s:.0f} s)")
         for _ in range(rests):
             time.sleep(0.05)
@@ -182,13 +184,20 @@ class Bench:
         except ValueError:
             return None
 
-    def status_says(self, key, pattern, timeout_s=20.0):
-        """Waits until this member of the status file matches the regular expression; returns the status."""
+    def uptime_s(self):
+        """The guest's clock, which the members `monotonic_ns` of the status files are of."""
+        return float(self.machine.read("/proc/uptime").split()[0])
+
+    def status_says(self, key, pattern, timeout_s=20.0, anew=False):
+        """Waits until this member of the status file matches the regular expression; returns the status. `anew`: only a status counts that is
+        written from now on. The file stays when the exhibit ends, and it is up to a second old."""
         found = [None]
+        since_ns = 1e9 * self.uptime_s() if anew else 0.0
 
         def said():
             found[0] = self.status()
-            return found[0] is not None and re.search(pattern, str(found[0].get(key)))
+            return (found[0] is not None and found[0]["monotonic_ns"] > since_ns
+                    and re.search(pattern, str(found[0].get(key))))
 
         eventually(said, timeout_s, lambda: f"'{key}' never says '{pattern}', at last "
                                             f"'{found[0] and found[0].get(key)}'")
@@ -222,14 +231,16 @@ class Bench:
         return self.picture_where(lambda placed: near(placed, pose, eye_m), pose, timeout_s, after)
 
     def resting_picture_of(self, pose):
-        """Places the prop upright; returns the picture once its filtered pose rests: two pictures, a second apart, are equal."""
+        """Places the prop upright; returns the picture once its filtered pose rests: two pictures, a second apart, are equal. Their codes
+        differ, otherwise they are the same picture."""
         self.place(pose[:3])
         seen = [self.picture_of(pose)]
 
         def rests():
             self.machine.let_run(1.0)
             seen.append(self.picture_of(pose))
-            return seen[-1] if screen.count(screen.changed(*seen[-2:], 0)) == 0 else None
+            is_new = screen.probe(seen[-1]) != screen.probe(seen[-2])
+            return seen[-1] if is_new and screen.count(screen.changed(*seen[-2:], 0)) == 0 else None
 
         return eventually(rests, 30.0, "the picture does not come to rest")
 
@@ -288,6 +299,13 @@ class Bench:
             for button in buttons:
                 self.buttons.tell("release", button)
         self.machine.let_run(RELEASED_S)
+
+    def press(self, button, reads=RELEASED_READS, duration="300ms"):
+        """Presses a button, and waits until the guest has read it as released so many times."""
+        self.buttons.tell("press", button, duration)
+        eventually(lambda: self.buttons.tell("status")["pins"] >> button & 1, 20.0, f"button {button} stays down")
+        until = self.buttons.tell("status")["reads"] + reads
+        eventually(lambda: self.buttons.tell("status")["reads"] >= until, 20.0, "nothing reads the buttons")
 
     def place(self, position_m, rotation=UPRIGHT):
         self.tracker.tell("pose", *position_m, *rotation, 1)

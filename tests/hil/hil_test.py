@@ -50,13 +50,13 @@ class HilTest(unittest.TestCase):
         bench.machine.run(f"rm -rf /run/hil; mkdir -m 777 /run/hil; echo detect > {CONNECTOR}")
         if not bench.status() and bench.machine.run(f"systemctl is-active {UNIT}").output.strip() != "active":
             bench.machine.check(f"systemctl reset-failed {UNIT}; systemctl start --no-block {UNIT}")
-        bench.status_says("tracker", "is running", START_S)
+        bench.status_says("tracker", "is running", START_S, anew=True)
         bench.status_says("panel", "buttons are there")
         bench.status_says("display", LIT)
 
     def broken(self):
         """Starts the measurement of the time until the screen is lit again."""
-        self.broken_s, self.broken_uptime_s = self.bench.machine.granted_s(), self.uptime_s()
+        self.broken_s, self.broken_uptime_s = self.bench.machine.granted_s(), self.bench.uptime_s()
 
     def tell_lit(self):
         """Prints the time until the screen was lit again, and, by the guest's own clock, the times until and of the exhibit's start."""
@@ -70,9 +70,6 @@ class HilTest(unittest.TestCase):
             restart = (f"; by the guest's clock it was started again after {began - self.broken_uptime_s:.1f} s, "
                        f"and its start took {ready - began:.1f} s")
         print(f"  lit {dark_s:.1f} s after the fault{restart}", flush=True)
-
-    def uptime_s(self):
-        return float(self.bench.machine.read("/proc/uptime").split()[0])
 
     def show(self, artifact):
         """Presses `next` if another of the two artifacts is shown."""

@@ -251,10 +251,11 @@ class Machine:
         return self._monitor.answer({"execute": command, "arguments": arguments})
 
     def _scheduled(self):
-        """The time now, and for each of the guest's processors and then each mocked device the seconds in which it ran, and those in which it
+        """The time now, and for each of the guest's processors, QEMU's main thread and each mocked device the seconds in which it ran, and those in which it
         was ready to run but the host's processors were busy (Linux, Documentation/scheduler/sched-stats.rst: /proc/PID/schedstat)."""
         files = [f"/proc/{self.pid}/task/{thread}/schedstat" for thread in self._threads]
-        files += [f"/proc/{process}/schedstat" for process in self.device_processes]
+        # QEMU's main thread serves the guest's timers and its USB ports, as the mocked devices do.
+        files += [f"/proc/{process}/schedstat" for process in (self.pid, *self.device_processes)]
         words = [pathlib.Path(file).read_text(encoding="ascii").split() for file in files]
         return time.monotonic(), [(1e-9 * int(ran), 1e-9 * int(waited)) for ran, waited, _ in words]
 
@@ -281,6 +282,13 @@ class Machine:
             return 0.0
         return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
 
+    def _rest(self, seconds):
+        """Pauses for `seconds`, and reads the clock as often as `given` asks for."""
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0.0:
+            time.sleep(min(left, 0.05))
+            self.granted_s()
+
     def let_run(self, seconds):
         """Waits until the host has granted the guest this many more seconds."""
         until = self.granted_s() + seconds
@@ -303,7 +311,7 @@ class Machine:
                 break
             if self.granted_s() > deadline:
                 raise MachineError(f"in the guest, after {timeout_s:.0f} s still running: {command}")
-            time.sleep(pause_s)
+            self._rest(pause_s)
             pause_s = min(2 * pause_s, 0.5)
         output = b"".join(base64.b64decode(state.get(key, "")) for key in ("out-data", "err-data"))
         return Ran(state.get("exitcode", -1), output.decode(errors="replace"))

@@ -55,7 +55,12 @@ class Watching:
 
         return eventually(heard, TOLD_S, lambda: f"it never says '{words}', at last {self.said()[-3:]}")
 
+    def is_well(self):
+        """Waits until the latest state says so: frames are late for a moment when the host withholds its processors."""
+        eventually(lambda: self.said()[-1] == WELL, TOLD_S, lambda: f"it is not well, at last {self.said()[-3:]}")
+
     def report(self):
+        """The report at its end."""
         self._machine.check(f"kill {self.process()}")
         eventually(lambda: not self.process(), 10.0, "it does not end")
         return json.loads(self._machine.read(FOUND))
@@ -96,6 +101,7 @@ class Camera(HilTest):
         refused = ("cd /sys/bus/usb/devices; for d in *-*; do [ ! -e $d/idProduct ] || [ $(cat $d/idVendor):$(cat $d/idProduct) != "
                    "1d6b:0102 ] || cat $d/authorized; done")
         eventually(lambda: self.bench.machine.run(refused).output.strip() == "0", 30.0, "the kernel takes a camera that nobody wants")
+        self.bench.machine.check("udevadm settle")  # the kernel authorizes no device before udev has decided
         self.bench.machine.let_run(2.0)
         self.assertFalse(self.is_there())
         self.plug()
@@ -111,6 +117,7 @@ class Camera(HilTest):
         with self.subTest("nothing leaves the process"):
             self.assert_keeps_nothing(process)
         before = self.bench.camera.tell("status")
+        watching.is_well()
         report = watching.report()
         self.assertEqual(report["health"], "well")
         self.assertEqual(report["set_up"]["name"].split(":")[0], "Mock Camera")
@@ -191,6 +198,7 @@ class Camera(HilTest):
         self.bench.camera.tell("hang", "8s")
         heard = watching.says("has stopped sending", heard)
         watching.says(WELL, heard)
+        watching.is_well()
         report = watching.report()
         self.assertEqual(report["health"], "well")
         self.assertEqual([control["lock"] for control in report["set_up"]["controls"]], ["locked", "locked", "locked"])

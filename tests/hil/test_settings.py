@@ -45,7 +45,7 @@ class SettingsByStick(StickTest):
     def test_1_taken(self):
         before = self.bench.main_process()
         self.assertEqual(self.put("first", self.brought), ("taken", "none"))
-        eventually(lambda: self.bench.main_process() not in (before, "0"), RESTART_S, "the exhibit is not started again")
+        eventually(lambda: self.bench.main_process() not in (before, 0), RESTART_S, "the exhibit is not started again")
         self.bench.status_says("artifact", "^nautilus-cup$", RESTART_S)
         # The table reports on the stick after the restart.
         eventually(lambda: self.lit_beside_prop() > TOLD_PIXELS, 20.0, "the table says nothing of the stick")

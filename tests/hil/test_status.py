@@ -22,7 +22,7 @@ class Status(HilTest):
 
     def test_screenshot_for_the_staff(self):
         """The screenshot equals the picture on the screen, to the pixel, except for the code in its corner."""
-        on_screen = self.bench.picture_of((*CENTRE_M, *UPRIGHT))
+        on_screen = self.bench.resting_picture_of((*CENTRE_M, *UPRIGHT))
         complaint = self.run_as(STAFF, "--screenshot /run/hil/pictures/now.png >/dev/null").output
         self.assertEqual(complaint, "")
         encoded = self.bench.machine.check("base64 -w 0 /run/hil/pictures/now.png")

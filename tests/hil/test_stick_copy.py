@@ -5,7 +5,7 @@ import subprocess
 import tomllib
 
 import kept_calibration
-from bench import RELEASED_S, SETTINGS, eventually
+from bench import SETTINGS, eventually
 from stick_bench import LIBRARY, StickTest, pulled_packs
 from test_calibration import FIRST, LAST, NEXT
 from test_stick_report import REPORT_S, files_on
@@ -88,8 +88,7 @@ class StickCopy(StickTest):
         self.assertEqual(files_on(stick), own, "before the button nothing is written")
         self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "staff"))
         for _ in range(PAGES_TO_COPY):
-            self.bench.buttons.tell("press", NEXT, "300ms")
-            self.bench.machine.let_run(RELEASED_S)
+            self.bench.press(NEXT)
         self.bench.hold((FIRST,), lambda: self.stage(*STAGES, timeout_s=REPORT_S))
         told = pulled_packs(self.outcome(REPORT_S))
         self.bench.hold((FIRST, LAST), lambda: self.bench.status_says("state", "^(?!staff)"))
@@ -120,7 +119,7 @@ class StickCopy(StickTest):
                  "old/001-nautilus-cup.fspack": self.written["001-nautilus-cup.fspack"]}
         told, _ = self.put("in", files)
         self.assertEqual(told, {COPY: ("taken", "none"), "001-nautilus-cup.fspack": ("taken", "none")})
-        eventually(lambda: self.bench.main_process() not in (before, "0"), RESTART_S, "the exhibit is not started again")
+        eventually(lambda: self.bench.main_process() not in (before, 0), RESTART_S, "the exhibit is not started again")
         self.assertEqual(self.bench.machine.read(SETTINGS), self.settings + self.keys)
         self.assertIn("places = 9", self.bench.machine.check(CALIBRATION))
         self.assertIn("184000", self.bench.machine.read(DAY))

@@ -14,6 +14,7 @@ from stick_bench import IMPORT_S, LIBRARY, QUIET, QUIET_S, REPORT_FILE, LongStic
 
 PULLS = int(os.environ.get("FRUSTUMSCREEN_HIL_PULLS", "100"))
 CUTS = int(os.environ.get("FRUSTUMSCREEN_HIL_CUTS", "20"))
+NEVER = 1 << 30  # writes
 CHANGING_MIB = 2
 DAMAGED_EACH = 5
 SLOW_READ_S = 5.0
@@ -97,17 +98,18 @@ class StickStorm(LongStickTest):
         self.bench.machine.check(f"until systemctl show -P ActiveState {IMPORT} | grep -qx -e inactive -e failed; do sleep 0.1; done", QUIET_S)
 
     def cut_after(self, writes, old, survivor, seed):
-        """Imports with a power cut of the library's disk; returns the disk's numbers of writes before the import and at its end."""
-        disk = nbd.Disk(self.folder / "disk", old, cut_after=writes, seed=seed)
+        """Imports with a power cut of the library's disk after so many writes; returns the number of writes."""
+        disk = nbd.Disk(self.folder / "disk", old, cut_after=NEVER, seed=seed)
         try:
             self.plug_library(disk.path)
             begun = disk.writes
+            disk.cut_after = begun + writes
             self.import_by_hand()
             ended = disk.writes
             disk.cut()
             self.pull_own("library", LIBRARY)
             disk.survived(survivor)
-            return begun, ended
+            return ended - begun
         finally:
             disk.stop()
 
@@ -121,23 +123,23 @@ class StickStorm(LongStickTest):
         self.pull_own("library", LIBRARY)
         self.plug_own("stick", self.make("new", "vfat", both), BY_HAND, "ro,nosuid,nodev,noexec,nosymfollow,umask=0222,utf8")
         self.addCleanup(self.pull_own, "stick", BY_HAND)
-        begun, ended = self.cut_after(1 << 30, old, survivor, 0)
+        written = self.cut_after(NEVER, old, survivor, 0)
         chance = random.Random(2)
         new = 0
         for number in range(CUTS):
             # The import's writes are divided into CUTS parts, with a cut in each; the last cut comes after the import.
-            writes = begun + 1 + round((number + chance.random()) * (ended - begun) / CUTS) if number + 1 < CUTS else 1 << 30
+            writes = 1 + round((number + chance.random()) * written / CUTS) if number + 1 < CUTS else NEVER
             self.cut_after(writes, old, survivor, number)
             shutil.copyfile(survivor, check)
             self.plug_library(check)
             found = sorted(self.installed())
-            self.assertIn(found, sets, f"cut {number}, after {writes} of {ended} writes")
+            self.assertIn(found, sets, f"cut {number}, after {writes} of {written} writes")
             new += found == sets[1]
             self.import_by_hand()
             self.assertEqual(sorted(self.installed()), sets[1], f"the stick again, after cut {number}")
             self.pull_own("library", LIBRARY)
             self.goes_on()
-        print(f"  {CUTS} cuts in {ended - begun} writes; {new} times it was the new set", flush=True)
+        print(f"  {CUTS} cuts in {written} writes; {new} times it was the new set", flush=True)
         self.assertTrue(0 < new < CUTS, "all came before, or all after the switch: this proves nothing")
 
     def test_damaged_file_systems(self):

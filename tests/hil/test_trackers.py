@@ -5,21 +5,23 @@ from hil_test import HilTest, long
 
 ARTIFACT = "amphora"
 PLACE_M = (0.1, -0.05, 0.0)
+OTHER_PLACE_M = (-0.1, -0.05, 0.0)
 FOUND_S = 20.0  # it must be found within 2 s; the kernel's own enumeration is slow here
 
 
 class Trackers(HilTest):
-    def take(self, device):
+    def take(self, device, place_m):
         tracker = self.bench.other_trackers[device]
+        self.addCleanup(self.bench.status_says, "tracker", "no tracker is connected", FOUND_S)  # after the next one
         self.addCleanup(tracker.tell, "unplug")
         self.show(ARTIFACT)
         self.bench.tracker.tell("unplug")
         self.bench.status_says("tracker", "no tracker is connected", FOUND_S)
-        tracker.tell("pose", *PLACE_M, *UPRIGHT, 1)
+        tracker.tell("pose", *place_m, *UPRIGHT, 1)
         tracker.tell("pose", *EYE_M, *UPRIGHT, 2)
         tracker.tell("unplug", "off")
         self.bench.status_says("tracker", "is running", FOUND_S)
-        self.assert_at(PLACE_M, artifact=ARTIFACT)
+        self.assert_at(place_m, artifact=ARTIFACT)
 
     def test_viper_filters_are_switched_off(self):
         """The driver switches both of the tracker's own filters off when it finds the tracker."""
@@ -43,7 +45,7 @@ class Trackers(HilTest):
         self.assert_at(PLACE_M, artifact=ARTIFACT)
 
     def test_patriot(self):
-        self.take("patriot")
+        self.take("patriot", PLACE_M)
 
     def test_hid_tracker(self):
-        self.take("hid")
+        self.take("hid", OTHER_PLACE_M)

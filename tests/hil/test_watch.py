@@ -17,7 +17,7 @@ class Freezes(HilTest):
 
     def assert_noticed(self, ms, rests):
         self.watch(LOOK_S, rests)
-        self.bench.machine.spawn(f"echo {ms} > /run/hil/new; sleep {LOOK_S / 4}; mv /run/hil/new /run/hil/hang-gl")
+        self.hang("gl", ms)
         self.assertTrue(froze(watch(self.bench, LOOK_S), rests), f"nobody noticed that the picture froze for {ms} ms")
 
     def test_noticed_while_it_moves(self):

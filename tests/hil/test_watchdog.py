@@ -73,6 +73,7 @@ class Watchdog(HilTest):
     def kill(self):
         """Kills the exhibit, and waits until systemd has started it again."""
         process = self.bench.main_process()
+        self.assertNotEqual(process, 0, "the exhibit does not run")
         self.broken()
         self.bench.machine.check(f"kill -KILL {process}")
         eventually(lambda: self.bench.main_process() not in (0, process), BACK_S, "systemd does not restart it")
@@ -82,10 +83,11 @@ class Watchdog(HilTest):
 
     def test_watchdog_killed_and_stopped(self):
         for signal in ("KILL", "STOP"):
-            before, process = self.said()["monotonic_ns"], self.process_of(WATCHDOG)
+            process = self.process_of(WATCHDOG)
             self.bench.machine.check(f"kill -{signal} {process}")
             eventually(lambda: self.process_of(WATCHDOG) not in (0, process), BACK_S, "systemd does not restart it")
-            eventually(lambda: self.said().get("monotonic_ns", 0) > before and self.said()["lit"], BACK_S,
+            since_ns = 1e9 * self.bench.uptime_s()  # the old process has ended, but its file is still there
+            eventually(lambda since_ns=since_ns: (said := self.said()).get("monotonic_ns", 0) > since_ns and said["lit"], BACK_S,
                        "it runs again and sees nothing")
         self.assert_untouched()
 
@@ -93,7 +95,7 @@ class Watchdog(HilTest):
         for _ in range(3):
             self.kill()
         self.took("reset_device", "keeps_ending")
-        self.bench.status_says("tracker", "is running", START_S)
+        self.bench.status_says("tracker", "is running", START_S, anew=True)
         self.assert_lives()
         self.assertEqual(len(self.faults()), 1, f"more steps than one: {self.faults()}")
 

@@ -71,12 +71,14 @@ class Windows(HilTest):
         super().setUpClass()
         before_press, cls.after_press = run_here(cls.bench, PROP)
         cls.window = screen.changed(before_press, cls.after_press, CHANGED)
+        cls.pinned = cls.render_pinned()
 
     def setUp(self):
         super().setUp()
         self.assertGreater(screen.count(self.window), 300, "no window is pinned on this machine: this proves nothing")
-        self.show(ARTIFACT)
         self.bench.place(PROP[:3])
+        self.bench.picture_of(PROP)  # a prop that has moved ends the turn of the artifacts
+        self.show(ARTIFACT)
 
     def test_window_stays_where_pinned_until_the_visit_ends(self):
         dark = self.bench.resting_picture_of(PROP)
@@ -97,10 +99,11 @@ class Windows(HilTest):
 
         eventually(is_there, APPEARS_S, lambda: said[0])
         # That picture may be one of the window's fade, because the status that it followed was from before the press.
-        self.shows_what_render_pins(self.bench.picture_of(PROP, after=shown[0]))
+        picture = self.bench.picture_of(PROP, after=shown[0])
         # The artifact goes on in the prop, no picture stands, and the window stays where it is.
         self.bench.tracker.tell("pose", *OTHER_PROP, 1)
         self.watch(MOVED_S, rests=True)
+        self.shows_what_render_pins(picture)
         moved = screen.lit(self.bench.picture_of(OTHER_PROP))
         meant = screen.lit(self.after_press)
         window_alone = [row & place for row, place in zip(meant, self.window)]
@@ -109,16 +112,21 @@ class Windows(HilTest):
         eventually(lambda: screen.count([row & place for row, place in zip(screen.lit(self.bench.screendump()), window_alone)]) == 0,
                    4 * RESTS_S, "the window stays, though nobody is there")
 
-    def shows_what_render_pins(self, picture):
-        """Checks that the lit pixels within the window's frame are those that `frustumscreen render --pin` lights there."""
-        left, top, right, bottom = box = screen.box(self.window, picture.width)
+    @classmethod
+    def render_pinned(cls):
+        """The picture with a window of `frustumscreen render --pin` at the window's place."""
+        left, top, right, bottom = screen.box(cls.window, cls.after_press.width)
         with tempfile.TemporaryDirectory() as folder:
             config = pathlib.Path(folder) / "kiosk.toml"
             config.write_text(WINDOWS, encoding="utf-8")
-            x, y = on_table(self.bench, config, ((left + right) / 2, (top + bottom) / 2))
-            pinned = self.bench.render([PROP], ARTIFACT, EYE_M, config, options=("--pin", f"{x:.4f},{y:.4f}"))[0]
+            x, y = on_table(cls.bench, config, ((left + right) / 2, (top + bottom) / 2))
+            return cls.bench.render([PROP], ARTIFACT, EYE_M, config, options=("--pin", f"{x:.4f},{y:.4f}"))[0]
+
+    def shows_what_render_pins(self, picture):
+        """Checks that the lit pixels within the window's frame are those that `frustumscreen render --pin` lights there."""
+        left, top, right, bottom = box = screen.box(self.window, picture.width)
         inside = (left + NEAR, top + NEAR, right - NEAR, bottom - NEAR)
-        seen, meant = (rows_in(screen.lit(each), inside, picture.width) for each in (picture, pinned))
+        seen, meant = (rows_in(screen.lit(each), inside, picture.width) for each in (picture, self.pinned))
         self.assertGreater(screen.count(meant), 200, f"nothing is pinned at {box}: this proves nothing")
         self.assertLess(screen.share_outside(seen, screen.grown(meant, NEAR, picture.width)), MAX_OUTSIDE)
         self.assertLess(screen.share_outside(meant, screen.grown(seen, NEAR, picture.width)), MAX_OUTSIDE)

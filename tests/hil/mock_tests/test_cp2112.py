@@ -5,7 +5,7 @@ import types
 import unittest
 
 from mocks.buttons_console import ButtonsConsole
-from mocks.cp2112 import Cp2112
+from mocks.cp2112 import PINS, Cp2112
 from mocks.usb_device import Request
 
 REPORTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "cp2112_reports.txt")
@@ -98,7 +98,19 @@ class PressCommand(unittest.IsolatedAsyncioTestCase):
             before_s.append(asked_s)
             after_s.append(time.monotonic())
             await asyncio.sleep(0.005)
-        self.assertGreater(after_s[-1] - before_s[1], 0.05)
+        self.assertGreater(after_s[-PINS] - before_s[1], 0.05)
+
+    async def test_outlasts_a_look_at_all_pins_that_begins_late(self):
+        device = Cp2112()
+        device.link = types.SimpleNamespace(connected=True)
+        ButtonsConsole(device).execute("press 1 10ms")
+        for _ in range(2):
+            get(device, 3, 2)
+        await asyncio.sleep(0.2)  # the host gave the guest no time
+        for number in range(PINS):
+            self.assertEqual(get(device, 3, 2), bytes([3, 0xFD]), f"it ended before read {number} of the look")
+            await asyncio.sleep(0.02)
+        self.assertEqual(device.pins(), 0xFF)
 
     async def test_ends_in_time_without_a_host(self):
         device = Cp2112()

@@ -41,7 +41,7 @@ class Cp2112(UsbDevice):
         self.reads = 0  # how often the host read the pins
         self.lamps = 0  # the levels of pins that the host drives
         self._pressed = 0
-        self._read_down_s = [[] for _ in range(PINS)]  # for each pressed pin, when the host read it: first, second, last
+        self._read_down_s = [[] for _ in range(PINS)]  # for each pressed pin, when the host read it: the first two times, the last PINS
         self.start_anew()
 
     def start_anew(self):
@@ -57,9 +57,10 @@ class Cp2112(UsbDevice):
 
     def noticed_for_s(self, pin):
         """How long the host's driver has known at least that this pin is down. The driver has received a read's answer when it asks for
-        the next one, so this is the time from the second read to the last."""
+        the next one. It reads all pins for each line that it is asked for, so that a look at all lines takes up to PINS reads. So this is the
+        time from the second read to the one after which a whole look has ended."""
         times_s = self._read_down_s[pin]
-        return times_s[-1] - times_s[1] if len(times_s) > 1 else 0.0
+        return times_s[2] - times_s[1] if len(times_s) == 2 + PINS else 0.0
 
     def set_special(self, bits):
         outputs, push_pull, _, divider = self._features[_DIRECTIONS]
@@ -84,7 +85,8 @@ class Cp2112(UsbDevice):
             self.reads += 1
             for pin, times_s in enumerate(self._read_down_s):
                 if self._pressed >> pin & 1:
-                    times_s[2:] = [time.monotonic()]
+                    times_s.append(time.monotonic())
+                    del times_s[2:-PINS]
             return bytes([number, self.pins()])
         data = self._features.get(number)
         return None if data is None else bytes([number]) + data
