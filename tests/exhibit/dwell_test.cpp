@@ -63,6 +63,7 @@ TEST(Dwell, RingFillsIn1500MsAndChoosesOnce) {
     ASSERT_EQ(pictures.size(), 12U);
     Dwell dwell;
     double full = 0.0;
+    int filling = 0;
     std::vector<double> chosen_s;
     for (int frame = 0; frame <= 600; ++frame) {
         const double now = frame / 60.0;
@@ -77,8 +78,10 @@ TEST(Dwell, RingFillsIn1500MsAndChoosesOnce) {
             EXPECT_NEAR(state.full, std::clamp((now - 0.2) / 1.5, 0.0, 1.0), 1e-5);
             EXPECT_GE(state.full, full);
             full = state.full;
+            ++filling;
         }
     }
+    EXPECT_NEAR(filling, 90, 1); // 1.5 s
     ASSERT_EQ(chosen_s.size(), 1U);
     EXPECT_NEAR(chosen_s.front(), 1.7, 0.017);
 }
@@ -130,16 +133,20 @@ TEST(Dwell, IgnoresAChosenPictureUntilThePropLeavesIt) {
 TEST(Dwell, IgnoresPicturesThatAppearUnderTheProp) {
     const std::vector<typography::TableRectangle>& pictures = shipped_pictures();
     Dwell dwell;
-    bool chosen = false;
-    for (int frame = 0; frame < 300; ++frame) {
+    int chosen = 0;
+    for (int frame = 0; frame < 450; ++frame) {
         if (frame == 30) {
             dwell.pictures_changed(pictures);
         }
-        const DwellState state = dwell.update(at_s(frame / 60.0), pictures[5].centre_m, pictures);
-        chosen = chosen || state.chosen.has_value();
-        EXPECT_TRUE(frame < 30 || !state.place);
+        const bool away = frame == 300;
+        const DwellState state =
+            dwell.update(at_s(frame / 60.0), away ? glm::dvec2(0.0) : pictures[5].centre_m, pictures);
+        chosen += state.chosen ? 1 : 0;
+        EXPECT_TRUE(frame < 30 || frame > 300 || !state.place);
+        EXPECT_TRUE(frame != 29 || state.place == 5U) << "a ring had begun";
+        EXPECT_TRUE(frame > 300 || chosen == 0);
     }
-    EXPECT_FALSE(chosen);
+    EXPECT_EQ(chosen, 1) << "once the prop has left it and is back";
 }
 
 TEST(Dwell, IgnoresALiftedOrLostProp) {
@@ -209,10 +216,14 @@ TEST(Dwell, ASlowSteadySweepNeverChooses) {
         Dwell dwell;
         const double speed = between(random, 0.012, 0.04);
         const glm::dvec2 start(-0.4, pictures[random() % pictures.size()].centre_m.y);
+        bool ringed = false;
         for (int frame = 0; frame / 60.0 * speed < 0.8; ++frame) {
             const glm::dvec2 at = start + glm::dvec2(frame / 60.0 * speed, 0.0) + noise(random);
-            EXPECT_FALSE(dwell.update(at_s(frame / 60.0), at, pictures).chosen);
+            const DwellState state = dwell.update(at_s(frame / 60.0), at, pictures);
+            EXPECT_FALSE(state.chosen);
+            ringed = ringed || state.place;
         }
+        EXPECT_TRUE(ringed) << "it was over a picture for longer than a ring takes to begin: " << speed;
     }
 }
 

@@ -82,6 +82,10 @@ TEST(ObjectDwell, LongGapRestartsTheDwell) {
     EXPECT_FALSE(dwell.step(sample::start, before(vase)));
     EXPECT_FALSE(dwell.step(sample::start + milliseconds(400), before(vase)));
     EXPECT_FALSE(dwell.step(sample::start + milliseconds(3000), before(vase)));
+    for (const int ms : {3400, 3800, 4200, 4499}) {
+        EXPECT_FALSE(dwell.step(sample::start + milliseconds(ms), before(vase))) << ms;
+    }
+    EXPECT_EQ(dwell.step(sample::start + milliseconds(4500), before(vase)), vase);
 }
 
 TEST(ObjectDwell, IgnoresTheArtifactAlreadyInTheProp) {
