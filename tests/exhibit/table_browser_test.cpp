@@ -108,10 +108,14 @@ TEST(TableBrowser, LastPlaceTurnsPagesAndAnArtifactOpensItsPage) {
     EXPECT_EQ(seen.size(), 49U); // all but the one in the prop
     visitor.input.artifact = 30; // chosen with a button
     visitor.wait(1.0);
-    const std::size_t page = layout.page_of(30);
-    for (const std::size_t artifact : visitor.bright()) {
-        EXPECT_EQ(layout.page_of(artifact), page);
+    std::set<std::size_t> on_page;
+    for (std::size_t artifact = 0; artifact < 50; ++artifact) {
+        if (artifact != 30 && layout.page_of(artifact) == layout.page_of(30)) {
+            on_page.insert(artifact);
+        }
     }
+    EXPECT_GT(on_page.size(), 3U);
+    EXPECT_EQ(visitor.bright(), on_page);
 }
 
 TEST(TableBrowser, PicturesTurnToTheReaderInTheDark) {
@@ -130,7 +134,9 @@ TEST(TableBrowser, PicturesTurnToTheReaderInTheDark) {
             }
         }
     }
+    EXPECT_TRUE(dark);
     EXPECT_EQ(visitor.bright().size(), 7U);
+    EXPECT_EQ(visitor.picture_of(1).place.picture.quarter_turns, 3);
     EXPECT_EQ(visitor.browser.obstacles().size(), lay_out_table(visitor.set_up, 3).places.size());
 }
 
