@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace frustumscreen::exhibit {
 namespace {
@@ -161,13 +162,17 @@ TEST(StaffTool, CopyIsConfirmedOnItsPageOnlyIfOffered) {
 TEST(StaffTool, ChordUndoesItsPresses) {
     for (const std::size_t buttons : {2U, 3U, 4U, 5U}) {
         const char last = static_cast<char>('0' + buttons);
+        std::vector<std::string> chords{{'1', last}, {last, '1'}};
+        if (buttons > 2) {
+            chords.insert(chords.end(), {{'1', '2', last}, {last, '2', '1'}});
+        }
         for (std::size_t pages = 0; pages < staff_page_names.size(); ++pages) {
-            for (const std::string& chord :
-                 {std::string{'1', last}, std::string{last, '1'}, std::string{'1', last, 'F'}}) {
+            for (const std::string& chord : chords) {
                 Played played;
                 played.play(std::string(pages, '2') + (pages == 3 || pages == 4 ? "1" : ""));
                 const StaffView before = played.shown();
-                played.play(chord.substr(0, 2));
+                ASSERT_EQ(static_cast<std::size_t>(before.page), pages);
+                played.play(chord);
                 played.tool.undo_chord(buttons - 1);
                 played.now += seconds(2);
                 played.tool.step(played.now);
