@@ -281,13 +281,18 @@ TEST(StickNotice, clamps_the_ring_for_inconsistent_sizes) {
 
 /// Any reports in any order, and presses; the ring's end moves no faster than a smooth step of 0.3 s.
 TEST(StickNotice, ring_moves_smoothly_and_notices_expire) {
+    int moved = 0;
+    int expired = 0;
+    int ended = 0;
     for (unsigned seed = 0; seed < 200; ++seed) {
         std::mt19937 random(seed);
         StickNotice notice;
         MonotonicTime now = start;
         MonotonicTime silent_since = now; // the last report
+        std::optional<ShownNotice> before;
         for (int k = 0; k < 3000; ++k) {
-            now += milliseconds(random() % 40 == 0 ? random() % 60000 : 10);
+            const Nanoseconds later = milliseconds(random() % 40 == 0 ? random() % 60000 : 10);
+            now += later;
             if (random() % 50 == 0) {
                 library::ImportReport report = report_of(
                     std::to_string(random() % 2), library::ImportStage(random() % 5), random() % 101, 100);
@@ -298,18 +303,29 @@ TEST(StickNotice, ring_moves_smoothly_and_notices_expire) {
             const std::optional<ShownNotice> shown = notice.at(now);
             if (now - silent_since >= StickNotice::look_timeout + StickNotice::told_for) {
                 EXPECT_FALSE(shown);
+                ++expired;
             }
             if (shown && shown->ring) {
                 EXPECT_GE(*shown->ring, 0.0);
                 EXPECT_LE(*shown->ring, 1.0);
             }
+            if (shown && shown->ring && before && before->ring && before->import == shown->import) {
+                const double way = std::abs(*shown->ring - *before->ring);
+                EXPECT_LE(way, 1.5 * to_seconds(later) / 0.3 + 1e-9) << seed;
+                moved += way > 0.0 ? 1 : 0;
+            }
+            before = shown;
             if (random() % 100 == 0) {
                 const bool ends = shown && shown->ends_at_press;
+                ended += ends ? 1 : 0;
                 EXPECT_EQ(notice.press(now), ends);
                 EXPECT_EQ(notice.at(now).has_value(), shown.has_value() && !ends);
             }
         }
     }
+    EXPECT_GT(moved, 1000);
+    EXPECT_GT(expired, 100);
+    EXPECT_GT(ended, 100);
     StickNotice notice;
     double last = 0.0;
     for (int k = 0; k < 500; ++k) {
