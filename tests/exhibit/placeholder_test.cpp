@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace frustumscreen::exhibit {
@@ -76,7 +77,9 @@ TEST(ExhibitThatLoads, ShowsReadyArtifactsWithoutAPlaceholder) {
     for (; now < start + milliseconds(1500); now += frame) {
         EXPECT_FALSE(exhibit.step(now, {}, sample::tracked_state(now)).placeholder);
     }
-    EXPECT_EQ(exhibit.step(now, {}, sample::tracked_state(now)).brightness, 1.0);
+    const Presentation there = exhibit.step(now, {}, sample::tracked_state(now));
+    EXPECT_EQ(there.artifact, 1U);
+    EXPECT_EQ(there.brightness, 1.0);
 }
 
 TEST(ExhibitThatLoads, ShowsAPlaceholderUntilTheArtifactIsReady) {
@@ -112,6 +115,7 @@ TEST(ExhibitThatLoads, ShowsAPlaceholderUntilTheArtifactIsReady) {
     }
     now += 2 * frame;
     const Presentation there = exhibit.step(now, {}, sample::tracked_state(now));
+    EXPECT_EQ(there.artifact, 1U);
     EXPECT_EQ(there.brightness, 1.0);
     EXPECT_FALSE(there.placeholder);
     EXPECT_TRUE(there.settled || there.caption);
@@ -123,6 +127,7 @@ TEST(ExhibitThatLoads, NeverShowsUnusableArtifacts) {
                              ArtifactState::Unusable});
     std::mt19937 random(1);
     MonotonicTime now = start;
+    std::array<int, 4> shows{};
     for (int k = 0; k < 4000; ++k, now += frame) {
         std::vector<settings::Command> commands;
         if (random() % 20 == 0) {
@@ -131,10 +136,13 @@ TEST(ExhibitThatLoads, NeverShowsUnusableArtifacts) {
         }
         const Presentation shown = exhibit.step(now, commands, sample::tracked_state(now));
         EXPECT_EQ(shown.artifact % 2, 0U);
+        shows.at(shown.artifact) += shown.brightness > 0.5 ? 1 : 0;
         for (const std::size_t wanted : shown.wanted.artifacts()) {
             EXPECT_EQ(wanted % 2, 0U);
         }
     }
+    EXPECT_GT(shows[0], 100);
+    EXPECT_GT(shows[2], 100) << "the presses show the other one";
 }
 
 TEST(ExhibitThatLoads, SkipsAChosenArtifactThatBecomesUnusable) {
