@@ -120,7 +120,9 @@ TEST_F(AnotherSet, WaitsForAChangeOfArtifactToFinish) {
     exhibit.await_set(true);
     run(milliseconds(20), {settings::Command::NextArtifact});
     // Out and in for the change of artifact, and out for the set.
-    EXPECT_GE(leaves_within(seconds(5)), 3 * fade_time - milliseconds(60));
+    const Nanoseconds time = leaves_within(seconds(5));
+    EXPECT_GE(time, 3 * fade_time - milliseconds(60));
+    EXPECT_LE(time, 3 * fade_time + milliseconds(60));
 }
 
 TEST_F(AnotherSet, IsNotShownUnlessReady) {
@@ -171,7 +173,9 @@ TEST_F(AnotherSet, RestartsTheWaitAfterAWithdrawnSet) {
     run(seconds(15));
     EXPECT_FALSE(exhibit.leaves_set());
     exhibit.await_set(true);
-    EXPECT_GE(leaves_within(seconds(60)), SetChange::longest_wait);
+    const Nanoseconds waited = leaves_within(seconds(60));
+    EXPECT_GE(waited, SetChange::longest_wait);
+    EXPECT_LE(waited, SetChange::longest_wait + fade_time + milliseconds(60));
 }
 
 TEST_F(AnotherSet, KeepsTheStaffPatternOnScreen) {

@@ -94,7 +94,8 @@ TEST_F(WindowExhibit, WindowsFadeOutWithTheirSet) {
     for (int k = 0; k < 5000 && !exhibit.set_has_left(); ++k) {
         const Presentation shown = run(frame);
         for (const PresentedWindow& window : shown.windows.windows()) {
-            EXPECT_LE(before - window.brightness, 0.35) << "softly";
+            EXPECT_LE(before - window.brightness, 1.5 * to_seconds(frame) / to_seconds(fade_time) + 1e-9)
+                << "softly";
             before = window.brightness;
             faded = faded || (before > 0.1 && before < 0.9);
         }
