@@ -100,10 +100,16 @@ TEST_F(KmsCardTest, OnlyEyesInTurnHaveAThread) {
     const std::ptrdiff_t before = threads_now();
     for (const EyeLayout eyes : {EyeLayout::One, EyeLayout::SideBySide, EyeLayout::TopBottom}) {
         const std::unique_ptr<KmsDevice> device = make_device(*card, eyes);
+        ASSERT_TRUE(device) << static_cast<int>(eyes);
+        EXPECT_FALSE(device->alive_until()) << static_cast<int>(eyes);
         EXPECT_EQ(threads_now(), before) << static_cast<int>(eyes);
     }
-    const std::unique_ptr<KmsDevice> device = make_device(*card, EyeLayout::InTurn);
+    std::unique_ptr<KmsDevice> device = make_device(*card, EyeLayout::InTurn);
+    ASSERT_TRUE(device);
+    EXPECT_TRUE(device->alive_until());
     EXPECT_EQ(threads_now(), before + 1);
+    device.reset();
+    EXPECT_EQ(threads_now(), before) << "it ends with its device";
 }
 
 TEST_F(KmsCardTest, ReportsACardWithoutAtomicCommits) {
