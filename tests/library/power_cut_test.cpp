@@ -51,7 +51,15 @@ protected:
         const std::string text = text_of(disk);
         EXPECT_TRUE(text == old_text || text == new_text) << where << ": " << text.substr(0, 200);
         EXPECT_EQ(inspector.fault_of(disk), "") << where;
-        ++cuts;
+        ++(text == new_text ? new_sets : old_sets);
+    }
+    /// Each operation was cut, some before the switch to the new set and some after it.
+    void expect_cuts_on_both_sides(int after_operations) const {
+        std::printf("%d operations, %d sampled; %d cuts left the old set, %d the new one; %d imports\n",
+                    after_operations, sampled, old_sets, new_sets, imports);
+        EXPECT_GT(old_sets + new_sets, after_operations);
+        EXPECT_GT(old_sets, 0);
+        EXPECT_GT(new_sets, 0);
     }
     void expect_new_after_import(VolatileDisk& disk, const std::string& where) {
         const auto again = disk.copy();
@@ -83,8 +91,8 @@ protected:
     VolatileDisk before, stick;
     std::string old_text, new_text;
     int operations = 0;
-    int cuts = 0;
-    int sampled = 0; ///< operations with at least `max_cuts` possible states before them
+    int old_sets = 0, new_sets = 0; ///< left by a cut
+    int sampled = 0;                ///< operations with at least `max_cuts` possible states before them
     int imports = 0;
     Inspector inspector;
 };
@@ -102,8 +110,8 @@ TEST_F(PowerCut, AtEveryOperationLeavesTheOldSetOrTheNewOne) {
             }
         });
     }
-    std::printf("%d operations, %d sampled, %d cuts, %d imports after them\n", operations, sampled, cuts,
-                imports);
+    expect_cuts_on_both_sides(operations);
+    EXPECT_GT(imports, operations);
 }
 
 /// The names of all packs are synced at once, so that many of them may be there without the others.
@@ -121,7 +129,7 @@ TEST_F(PowerCut, LeavesTheOldOrNewSetOfManyPacks) {
         });
         expect_new_after_import(*disk, fmt::format("stopped before {}", operation));
     }
-    std::printf("%d operations, %d sampled, %d cuts\n", after->operations, sampled, cuts);
+    expect_cuts_on_both_sides(after->operations);
 }
 
 TEST_F(PowerCut, LeavesTheOldOrNewSetAfterAStoppedImport) {
@@ -135,7 +143,7 @@ TEST_F(PowerCut, LeavesTheOldOrNewSetAfterAStoppedImport) {
         }
         expect_new_after_import(*disk, fmt::format("stopped before {}", first));
     }
-    std::printf("%d cuts\n", cuts);
+    expect_cuts_on_both_sides(operations);
 }
 
 TEST_F(PowerCut, InAnEmptyFolderLeavesNothingOrTheSet) {
@@ -153,7 +161,7 @@ TEST_F(PowerCut, InAnEmptyFolderLeavesNothingOrTheSet) {
             }
         });
     }
-    std::printf("%d operations, %d sampled, %d cuts\n", after->operations, sampled, cuts);
+    expect_cuts_on_both_sides(after->operations);
 }
 
 /// A rename replaces the damaged file.
