@@ -41,7 +41,10 @@ public:
         int colours = 0;
         if (tjDecompressHeader3(handle_.get(), raw(bytes_), length(), &size.x, &size.y, &subsampling,
                                 &colours) != 0) {
-            return damaged();
+            return damaged(tjGetErrorStr2(handle_.get()));
+        }
+        if (size.x < 1 || size.y < 1) { // no error of libjpeg's for a file that ends in its header
+            return damaged("it ends before its size");
         }
         if (colours == TJCS_CMYK || colours == TJCS_YCCK) {
             return bad_input("picture.jpeg_cmyk", "the JPEG picture is CMYK; save it as RGB");
@@ -57,16 +60,15 @@ public:
         if (tjDecompress2(handle_.get(), raw(bytes_), length(), raw(picture), picture.width, 0,
                           picture.height, TJPF_RGBA, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0 &&
             !is_harmless(tjGetErrorStr2(handle_.get()))) {
-            return damaged();
+            return damaged(tjGetErrorStr2(handle_.get()));
         }
         return picture;
     }
 
 private:
     [[nodiscard]] unsigned long length() const { return static_cast<unsigned long>(bytes_.size()); }
-    [[nodiscard]] tl::unexpected<Error> damaged() const {
-        return bad_input("picture.jpeg_damaged", "the JPEG picture is damaged: {}",
-                         tjGetErrorStr2(handle_.get()));
+    [[nodiscard]] static tl::unexpected<Error> damaged(std::string_view why) {
+        return bad_input("picture.jpeg_damaged", "the JPEG picture is damaged: {}", why);
     }
 
     ByteView bytes_;
