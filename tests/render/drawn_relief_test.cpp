@@ -119,21 +119,26 @@ TEST(DrawnRelief, MatchesTheRasterizedRelief) {
 
 TEST(DrawnRelief, FadesPixelByPixelFromTheRasterizedRelief) {
     ReliefRig rig(1);
+    rig.drawn.light = glm::vec3(0.5F); // otherwise the two can hardly be told apart
     TestTable table(320, 200);
     std::mt19937 random(15);
     table.shuffle(random);
     const image::Image8 raster = rig.one(table, rig.raster, scene::LightCompensation{});
     const image::Image8 drawn = rig.one(table, rig.drawn, scene::LightCompensation{});
-    const image::Image8 middle = rig.fading(table, rig.raster, rig.drawn, 0.5);
-    std::size_t differing = 0;
-    for (std::size_t k = 0; k < middle.texels.size(); ++k) {
-        ASSERT_TRUE(farthest_channel(middle.texels[k], raster.texels[k]) <= 1 ||
-                    farthest_channel(middle.texels[k], drawn.texels[k]) <= 1)
-            << k;
-        differing += raster.texels[k] != drawn.texels[k] ? 1U : 0U;
+    for (const double share : {0.25, 0.5, 0.75}) {
+        const image::Image8 middle = rig.fading(table, rig.raster, rig.drawn, share);
+        std::size_t differing = 0;
+        std::size_t arrived = 0;
+        for (std::size_t k = 0; k < middle.texels.size(); ++k) {
+            const bool is_to = farthest_channel(middle.texels[k], drawn.texels[k]) <= 1;
+            ASSERT_TRUE(is_to || farthest_channel(middle.texels[k], raster.texels[k]) <= 1) << k;
+            const bool differs = farthest_channel(raster.texels[k], drawn.texels[k]) > 2;
+            differing += differs ? 1U : 0U;
+            arrived += differs && is_to ? 1U : 0U;
+        }
+        ASSERT_GT(differing, 1000U);
+        EXPECT_NEAR(static_cast<double>(arrived) / static_cast<double>(differing), share, 0.06);
     }
-    EXPECT_GT(lit_pixels(middle), 1000U);
-    EXPECT_GT(differing, 0U) << "the two do the same work";
 }
 
 TEST(DrawnRelief, UsesThePlannedMemoryAndFreesIt) {

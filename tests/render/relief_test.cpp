@@ -319,10 +319,18 @@ TEST(Relief, FadesPixelByPixelBetweenTwoReliefs) {
     table.shuffle(random);
     const image::Image8 from = rig.one(table, rig.raster, scene::LightCompensation{});
     const image::Image8 to = rig.one(table, other, scene::LightCompensation{});
-    ASSERT_NE(from.texels, to.texels);
-    const image::Image8 middle = rig.fading(table, rig.raster, other, 0.5);
-    for (std::size_t k = 0; k < middle.texels.size(); ++k) {
-        ASSERT_TRUE(middle.texels[k] == from.texels[k] || middle.texels[k] == to.texels[k]) << k;
+    for (const double share : {0.25, 0.5, 0.75}) {
+        const image::Image8 middle = rig.fading(table, rig.raster, other, share);
+        std::size_t differing = 0;
+        std::size_t arrived = 0;
+        for (std::size_t k = 0; k < middle.texels.size(); ++k) {
+            ASSERT_TRUE(middle.texels[k] == from.texels[k] || middle.texels[k] == to.texels[k]) << k;
+            const bool differs = from.texels[k] != to.texels[k];
+            differing += differs ? 1U : 0U;
+            arrived += differs && middle.texels[k] == to.texels[k] ? 1U : 0U;
+        }
+        ASSERT_GT(differing, 500U);
+        EXPECT_NEAR(static_cast<double>(arrived) / static_cast<double>(differing), share, 0.06);
     }
 }
 
