@@ -6,6 +6,7 @@
 #include "tests/render/relief_rig.h"
 #include "tests/solid/example_props.h"
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <string>
@@ -262,6 +263,7 @@ TEST(Solids, PlanningAFrameAllocatesNothing) {
         rig.plan = scene::make_plan(prop, which);
         std::mt19937 random(35);
         long counted = 0;
+        int shown = 0;
         for (int k = 0; k < 60; ++k) {
             table.hold(random);
             const long before = allocations_so_far();
@@ -269,8 +271,13 @@ TEST(Solids, PlanningAFrameAllocatesNothing) {
             view.on_table = {&everywhere, 1};
             scene::plan_frame(prop, which, view, rig.plan);
             counted += allocations_so_far() - before;
+            const auto on_prop = static_cast<std::size_t>(std::ranges::count_if(
+                rig.plan.draws, [](const scene::Draw& draw) { return draw.face >= 0; }));
+            shown += (which.relief ? rig.plan.relief_draw_count : on_prop) > 0 ? 1 : 0;
+            EXPECT_GT(rig.plan.draws.size(), on_prop) << "the picture on the table " << k;
         }
         EXPECT_EQ(counted, 0) << (which.relief ? "relief" : "mesh");
+        EXPECT_GT(shown, 50);
     }
 }
 

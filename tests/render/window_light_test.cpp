@@ -315,6 +315,13 @@ TEST(WindowLight, PlanningAllocatesNothing) {
         const long before = allocations_so_far();
         scene::plan_frame(both.rig.world.prop, both.rig.world.parts, view, both.rig.world.plan);
         EXPECT_EQ(allocations_so_far() - before, 0);
+        const scene::FramePlan& plan = both.rig.world.plan;
+        EXPECT_EQ(plan.torches.size(), 1U);
+        ASSERT_EQ(plan.window_count, 2U);
+        for (std::size_t k = 0; k < plan.window_count; ++k) {
+            EXPECT_EQ(plan.windows[k].torches.size(), 1U) << k;
+            EXPECT_GT(plan.windows[k].draws.size() + plan.windows[k].relief_draw_count, 0U) << k;
+        }
     }
 }
 
