@@ -150,6 +150,7 @@ TEST_F(GuideTest, DoesNotSpeakWhileTheAdviceIsFollowed) {
         at(milliseconds(1000 * k), standing_at(0.40 - 0.02 * k, 0.0));
     }
     EXPECT_EQ(stages_.count(GuidanceStage::Voice), 0U);
+    EXPECT_EQ(stages_.count(GuidanceStage::Picture), 1U) << "it is advised";
 }
 
 TEST_F(GuideTest, NamesALostPropOrHead) {
