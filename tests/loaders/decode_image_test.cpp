@@ -82,15 +82,25 @@ TEST(DecodeImage, RejectsInvalidHeaders) {
     };
     const std::string most("\xff\xff\xff\x7f", 4);
     const std::string least("\0\0\0\x80", 4);
-    for (const std::string& bytes :
-         {altered(bmp_of(truth), 18, most), altered(bmp_of(truth), 22, most),
-          altered(bmp_of(truth), 22, least), altered(bmp_of(truth), 10, most),
-          altered(bmp_of(truth), 28, "\x40"), altered(bmp_of(truth), 14, "\xff"),
-          altered(bmp_of(truth), 30, "\x1"), altered(tga_of(truth), 12, "\xff\xff"),
-          altered(tga_of(truth), 14, std::string(2, '\0')), altered(tga_of(truth), 0, "\xff"),
-          altered(tga_of(truth, true), 14, "\xff\xff"), altered(tiff_of(truth), 4, most)}) {
+    const std::string none(4, '\0');
+    const std::vector<std::pair<std::string, std::string>> refusals{
+        {altered(bmp_of(truth), 18, most), "picture.too_large"},
+        {altered(bmp_of(truth), 22, most), "picture.too_large"},
+        {altered(bmp_of(truth), 22, least), "picture.too_large"},
+        {altered(bmp_of(truth), 18, none), "picture.no_texels"},
+        {altered(bmp_of(truth), 10, most), "picture.bitmap_damaged"},
+        {altered(bmp_of(truth), 28, "\x40"), "picture.bitmap_damaged"},
+        {altered(bmp_of(truth), 14, "\xff"), "picture.bitmap_damaged"},
+        {altered(bmp_of(truth), 30, "\x1"), "picture.bitmap_damaged"},
+        {altered(tga_of(truth), 12, "\xff\xff"), "picture.bitmap_damaged"},
+        {altered(tga_of(truth), 14, none.substr(2)), "picture.no_texels"},
+        {altered(tga_of(truth), 0, "\xff"), "picture.bitmap_damaged"},
+        {altered(tga_of(truth, true), 14, "\xff\xff"), "picture.bitmap_damaged"},
+        {altered(tiff_of(truth), 4, most), "picture.tiff_damaged"}};
+    for (const auto& [bytes, refusal] : refusals) {
         const Result<image::Image8> picture = bake::decode_image(as_bytes(bytes));
-        EXPECT_FALSE(picture.has_value()) << bytes.substr(0, 40);
+        ASSERT_FALSE(picture.has_value()) << refusal << bytes.substr(0, 40);
+        EXPECT_EQ(picture.error().id.view(), refusal) << picture.error().message;
     }
 }
 

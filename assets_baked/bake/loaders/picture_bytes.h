@@ -36,7 +36,11 @@ namespace frustumscreen::bake {
 /// Errors   a side below 1, or more texels than allowed.
 [[nodiscard]] inline Result<image::Image8> blank_image(std::int64_t width, std::int64_t height,
                                                        std::int64_t limit_texels) {
-    if (width < 1 || height < 1 || width > limit_texels / height) {
+    if (width < 1 || height < 1) {
+        return bad_input("picture.no_texels", "the picture is damaged: by its header it has {} x {} texels",
+                         width, height);
+    }
+    if (width > limit_texels / height) {
         return too_large(width, height, limit_texels);
     }
     return image::Image8(static_cast<int>(width), static_cast<int>(height));
