@@ -170,7 +170,8 @@ TEST_F(RecordCommand, StopsWithoutLossWhileTheDeviceHangs) {
         GTEST_SKIP() << "this machine allows no tracing";
     }
     EXPECT_EQ(*status, 0);
-    EXPECT_NE(text("err.txt").find("did not stop in time; ended at once"), std::string::npos) << text("err.txt");
+    EXPECT_NE(text("err.txt").find("did not stop in time; ended at once"), std::string::npos)
+        << text("err.txt");
     EXPECT_NE(text("out.txt").find(" packets, 0 dropped"), std::string::npos);
     const Bytes file = *read_file(folder / "raw");
     Result<tracker::PacketReader> reader = tracker::PacketReader::open(file, "raw");
