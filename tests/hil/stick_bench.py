@@ -168,12 +168,32 @@ class ToldStickTest(StickTest):
         both = [screen.lit(cls.bench.rendered([(*CENTRE_M, *UPRIGHT)], artifact)[0]) for artifact in ("amphora", "nautilus-cup")]
         cls.prop = screen.grown([a | b for a, b in zip(*both)], 8, WIDTH)
 
-    def told_on_table(self, name=None):
-        """The number of lit pixels beside the prop; the picture is kept under this name."""
-        picture = self.bench.screendump()
-        if name:
+    def plug(self, name, source, **options):
+        self.before = self.beside_prop(self.bench.screendump())
+        super().plug(name, source, **options)
+
+    def beside_prop(self, picture):
+        """The lit pixels beside the prop."""
+        return [row & ~prop for row, prop in zip(screen.lit(picture), self.prop)]
+
+    def assert_told(self, name, stage):
+        """Waits until the table tells of the last import at this stage: the exhibit's status has it, nothing in the picture fades any more,
+        and words are lit that were not there when the stick came. The picture is kept under this name."""
+        told = [None]
+
+        def is_known():
+            told[0] = (self.bench.status() or {}).get("import") or {}
+            return told[0].get("import_id") == self.report()["import_id"] and told[0].get("stage") == stage
+
+        eventually(is_known, 20.0, lambda: f"the exhibit does not know that the stick is at '{stage}', but {told[0]}")
+        known = self.bench.screendump()
+
+        def is_lit():
+            picture = self.bench.picture_of((*CENTRE_M, *UPRIGHT), after=known)
             screen.write_png(self.bench.out / f"{name}.png", picture)
-        return screen.count([row & ~prop for row, prop in zip(screen.lit(picture), self.prop)])
+            return screen.count([row & ~before for row, before in zip(self.beside_prop(picture), self.before)]) > TOLD_PIXELS
+
+        eventually(is_lit, 20.0, f"the table does not tell that the stick is at '{stage}'")
 
 
 class LongStickTest(StickTest):

@@ -1,10 +1,11 @@
 """Tests sticks with packs: artifacts change on the screen and in the status; unsigned packs, a stick pulled out half-way, two sticks."""
 
 import kept_calibration
+import screen
 import sticks
 from bench import UPRIGHT, eventually
 from hil_test import CENTRE_M, long
-from stick_bench import IMPORT_S, LIBRARY, TOLD_PIXELS, ToldStickTest, pulled_packs
+from stick_bench import IMPORT_S, LIBRARY, ToldStickTest, pulled_packs
 
 LARGE_MIB = 8
 SLOW_BYTES_PER_S = 700_000  # the pack then takes a dozen seconds
@@ -15,15 +16,10 @@ SHOWN_S = 90.0  # until the exhibit shows the new set, which it opens in the bac
 class Stick(ToldStickTest):
     before, after = kept_calibration.KEEP, kept_calibration.FORGET
 
-    def told_by_exhibit(self, import_id):
-        """The exhibit's status of this import; None: it has none yet."""
-        told = (self.bench.status() or {}).get("import") or {}
-        return told if told.get("import_id") == import_id and told.get("stage") in ("done", "failed") else None
-
     def test_1_taken_and_shown(self):
         before = self.bench.main_process()
         self.bench.picture_of((*CENTRE_M, *UPRIGHT))  # the artifact that turned at the start is gone
-        self.assertEqual(self.told_on_table(), 0)
+        self.assertEqual(screen.count(self.beside_prop(self.bench.screendump())), 0)
         pack = self.signed("nautilus-cup", 1)
         part = self.make("part", "vfat", {"nautilus-cup.fspack": pack, "._nautilus-cup.fspack": b"Mac OS X" * 100,
                                           "System Volume Information/IndexerVolumeGuid": b"x"})
@@ -36,11 +32,9 @@ class Stick(ToldStickTest):
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
         self.assertTrue(stick.read_bytes() == held, "something was written to the stick")
         # The screen shows the artifact from the stick, and the exhibit was not restarted.
-        told = eventually(lambda: self.told_by_exhibit(report["import_id"]), 20.0, "the status does not tell of the import")
-        self.assertEqual(told["stage"], "done")
-        eventually(lambda: self.told_on_table("stick_told") > TOLD_PIXELS, 20.0, "the table says nothing of the stick")
+        self.assert_told("stick_told", "done")
         self.bench.buttons.tell("press", 2, "300ms")  # this only ends the table's message on the stick
-        eventually(lambda: self.told_on_table() == 0, 20.0, "what the table says stays")
+        eventually(lambda: screen.count(self.beside_prop(self.bench.screendump())) == 0, 20.0, "what the table says stays")
         self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
         self.assert_at(CENTRE_M, artifact="nautilus-cup")
         self.assertEqual(self.bench.main_process(), before, "the exhibit was restarted")
@@ -58,7 +52,7 @@ class Stick(ToldStickTest):
         self.plug("slow", self.make("slow", "vfat", {"vase.fspack": pack}), bytes_per_s=SLOW_BYTES_PER_S)
         self.stage("copying")
         self.bench.machine.slow_down("stick-slow", STANDING_BYTES_PER_S)
-        eventually(lambda: self.told_on_table("stick_copying") > TOLD_PIXELS, 20.0, "the table says nothing of the copy")
+        self.assert_told("stick_copying", "copying")
         self.assertEqual(self.report()["stage"], "copying", "the copy was over before it was told: this proves nothing")
         self.pull("slow")
         report = self.outcome()

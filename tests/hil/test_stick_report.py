@@ -8,7 +8,7 @@ import tempfile
 
 from bench import eventually
 from hil_test import long
-from stick_bench import TOLD_PIXELS, ToldStickTest, pulled_packs
+from stick_bench import ToldStickTest, pulled_packs
 
 REQUEST = "frustumscreen-report.toml"
 REPORT_S = 150.0  # for an import, and for reading the journal with a slow processor
@@ -74,7 +74,7 @@ class StickReport(ToldStickTest):
         (folder, outcome), = pulled_packs(report).items()
         self.assertEqual((report["stage"], outcome), ("done", ("written", "none")))
         self.assertRegex(folder, r"^frustumscreen-report-\d{4}-\d\d-\d\d-\d{6}$")
-        eventually(lambda: self.told_on_table("stick_report") > TOLD_PIXELS, 20.0, "the table says nothing of the report")
+        self.assert_told("stick_report", "done")
         eventually(lambda: not self.mounts(), 30.0, "the stick stays mounted")
         self.pull("one")
         written = {pathlib.PurePath(name): content.decode() for name, content in self.assert_own_files(stick).items()}
@@ -107,7 +107,7 @@ class StickReport(ToldStickTest):
         refusal, reason = self.not_written(self.asking("protected"), protected=True)
         self.assertEqual(refusal, "unwritable")
         self.assertIn("write-protected", reason)
-        eventually(lambda: self.told_on_table("stick_report_protected") > TOLD_PIXELS, 20.0, "the table says nothing of the switch")
+        self.assert_told("stick_report_protected", "done")
 
     def test_4_pulled_out_while_it_is_written(self):
         stick = self.asking("slow")
@@ -116,7 +116,7 @@ class StickReport(ToldStickTest):
         self.pull("slow")
         report = self.outcome(REPORT_S)
         self.assertEqual((report["stage"], report["refusal"]), ("failed", "unreadable"))
-        eventually(lambda: self.told_on_table("stick_report_pulled") > TOLD_PIXELS, 20.0, "the table says nothing")
+        self.assert_told("stick_report_pulled", "failed")
         eventually(lambda: "frustumscreen-report/" not in self.bench.machine.run("cat /proc/mounts").output, 60.0, "the folder stays mounted")
         for name, content in {REQUEST: b"", **self.own}.items():
             self.assertTrue(file_on(stick, name) == content, f"{name} is not as it was")
