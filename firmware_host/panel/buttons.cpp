@@ -114,8 +114,7 @@ void Buttons::hold_chord(MonotonicTime now, std::vector<PanelEvent>& events) {
         chord_said_ = false;
         return;
     }
-    const bool down = buttons_.front().level && buttons_.back().level; // as in `hold`
-    if (!chord_said_ && down && now - *since >= times_.chord) {
+    if (!chord_said_ && chord_held() && now - *since >= times_.chord) {
         chord_said_ = true;
         buttons_.front().mute = true;
         buttons_.back().mute = true;
@@ -137,7 +136,7 @@ std::optional<MonotonicTime> Buttons::due() const {
     std::optional<MonotonicTime> next;
     const auto consider = [&next](MonotonicTime time) { next = next ? std::min(*next, time) : time; };
     const std::optional<MonotonicTime> chord = chord_since();
-    if (chord && !chord_said_ && buttons_.front().level && buttons_.back().level) {
+    if (chord_held() && !chord_said_) {
         consider(*chord + times_.chord);
     }
     for (const Button& button : buttons_) {

@@ -188,11 +188,11 @@ class Bench:
         """The guest's clock, which the members `monotonic_ns` of the status files are of."""
         return float(self.machine.read("/proc/uptime").split()[0])
 
-    def status_says(self, key, pattern, timeout_s=20.0, anew=False):
-        """Waits until this member of the status file matches the regular expression; returns the status. `anew`: only a status counts that is
-        written from now on. The file stays when the exhibit ends, and it is up to a second old."""
+    def status_says(self, key, pattern, timeout_s=20.0, fresh=False):
+        """Waits until this member of the status file matches the regular expression; returns the status. `fresh`: ignores a
+        status that was written before the call. The file is up to a second old, and the end of the exhibit does not remove it."""
         found = [None]
-        since_ns = 1e9 * self.uptime_s() if anew else 0.0
+        since_ns = 1e9 * self.uptime_s() if fresh else 0.0
 
         def said():
             found[0] = self.status()

@@ -50,7 +50,7 @@ class HilTest(unittest.TestCase):
         bench.machine.run(f"rm -rf /run/hil; mkdir -m 777 /run/hil; echo detect > {CONNECTOR}")
         if not bench.status() and bench.machine.run(f"systemctl is-active {UNIT}").output.strip() != "active":
             bench.machine.check(f"systemctl reset-failed {UNIT}; systemctl start --no-block {UNIT}")
-        bench.status_says("tracker", "is running", START_S, anew=True)
+        bench.status_says("tracker", "is running", START_S, fresh=True)
         bench.status_says("panel", "buttons are there")
         bench.status_says("display", LIT)
 

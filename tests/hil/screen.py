@@ -210,7 +210,7 @@ def probe(picture):
 
 
 def not_before(code, other):
-    """Whether the picture with this code is the one with the other code or a later one. Codes begin anew after CODES pictures."""
+    """Whether the picture with this code is the one with the other code or a later one. Codes wrap around after CODES pictures."""
     return (code - other) % CODES < CODES // 2
 
 

@@ -169,12 +169,16 @@ class ToldStickTest(StickTest):
         cls.prop = screen.grown([a | b for a, b in zip(*both)], 8, WIDTH)
 
     def plug(self, name, source, **options):
-        self.before = self.beside_prop(self.bench.screendump())
+        self.lit_before = self.beside_prop(self.bench.screendump())
         super().plug(name, source, **options)
 
     def beside_prop(self, picture):
         """The lit pixels beside the prop."""
         return [row & ~prop for row, prop in zip(screen.lit(picture), self.prop)]
+
+    def lit_beside_prop(self):
+        """Their number in the present picture."""
+        return screen.count(self.beside_prop(self.bench.screendump()))
 
     def assert_told(self, name, stage):
         """Waits until the table tells of the last import at this stage: the exhibit's status has it, nothing in the picture fades any more,
@@ -191,7 +195,7 @@ class ToldStickTest(StickTest):
         def is_lit():
             picture = self.bench.picture_of((*CENTRE_M, *UPRIGHT), after=known)
             screen.write_png(self.bench.out / f"{name}.png", picture)
-            return screen.count([row & ~before for row, before in zip(self.beside_prop(picture), self.before)]) > TOLD_PIXELS
+            return screen.count([row & ~before for row, before in zip(self.beside_prop(picture), self.lit_before)]) > TOLD_PIXELS
 
         eventually(is_lit, 20.0, f"the table does not tell that the stick is at '{stage}'")
 

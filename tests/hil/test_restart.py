@@ -53,7 +53,7 @@ class Restart(HilTest):
             first[0] = code if first[0] is None else first[0]
             return code != first[0]
 
-        self.bench.status_says("tracker", "is running", BACK_S, anew=True)
+        self.bench.status_says("tracker", "is running", BACK_S, fresh=True)
         eventually(lit_anew, BACK_S, "it runs again, but no new picture comes")
         self.tell_lit()
 
@@ -114,7 +114,7 @@ class Restart(HilTest):
         self.broken()
         told = self.bench.journal().count(HANGS)
         self.hang("gl")
-        eventually(lambda: self.bench.journal().count(HANGS) > told, BACK_S, "nobody tells that the picture hangs")
+        eventually(lambda: self.bench.journal().count(HANGS) > told, BACK_S, "the journal does not report that the picture hangs")
         self.assert_restarted()
 
     @long

@@ -1,20 +1,16 @@
 """Tests settings on a stick: the exhibit restarts with them and says so; unsigned, wrong and unusable ones change nothing."""
 
-import screen
-from bench import SETTINGS, UPRIGHT, USUAL, WIDTH, eventually
+from bench import SETTINGS, eventually
 from hil_test import CENTRE_M, long
-from stick_bench import StickTest, pulled_packs
+from stick_bench import TOLD_PIXELS, ToldStickTest, pulled_packs
 
-WORDS = 'captions = false\nwords = "/var/lib/frustumscreen/words.fswords"'
 RESTART_S = 90.0
 START_S = 120.0  # the exhibit may take so long with new settings before the previous ones are restored
 TOLD_S = 180.0  # the table shows the report for two minutes
-TOLD_PIXELS = 300
 
 
 @long
-class SettingsByStick(StickTest):
-    settings = USUAL.replace("captions = false", WORDS)
+class SettingsByStick(ToldStickTest):
     after = f"rm -f {SETTINGS}.*"
 
     @classmethod
@@ -25,7 +21,6 @@ class SettingsByStick(StickTest):
         amphora = '"/var/lib/frustumscreen/packs/amphora.fspack", '
         assert amphora in cls.settings
         cls.brought = cls.settings.replace(amphora, "") + cls.keys
-        cls.prop = screen.grown(screen.lit(cls.bench.rendered([(*CENTRE_M, *UPRIGHT)], "nautilus-cup")[0]), 8, WIDTH)
 
     @classmethod
     def tearDownClass(cls):
@@ -38,9 +33,6 @@ class SettingsByStick(StickTest):
         told = pulled_packs(self.outcome())["kiosk.toml"]
         self.pull(name)
         return told
-
-    def lit_beside_prop(self):
-        return screen.count([row & ~prop for row, prop in zip(screen.lit(self.bench.screendump()), self.prop)])
 
     def test_1_taken(self):
         before = self.bench.main_process()

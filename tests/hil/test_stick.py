@@ -1,7 +1,6 @@
 """Tests sticks with packs: artifacts change on the screen and in the status; unsigned packs, a stick pulled out half-way, two sticks."""
 
 import kept_calibration
-import screen
 import sticks
 from bench import UPRIGHT, eventually
 from hil_test import CENTRE_M, long
@@ -19,7 +18,7 @@ class Stick(ToldStickTest):
     def test_1_taken_and_shown(self):
         before = self.bench.main_process()
         self.bench.picture_of((*CENTRE_M, *UPRIGHT))  # the artifact that turned at the start is gone
-        self.assertEqual(screen.count(self.beside_prop(self.bench.screendump())), 0)
+        self.assertEqual(self.lit_beside_prop(), 0)
         pack = self.signed("nautilus-cup", 1)
         part = self.make("part", "vfat", {"nautilus-cup.fspack": pack, "._nautilus-cup.fspack": b"Mac OS X" * 100,
                                           "System Volume Information/IndexerVolumeGuid": b"x"})
@@ -34,7 +33,7 @@ class Stick(ToldStickTest):
         # The screen shows the artifact from the stick, and the exhibit was not restarted.
         self.assert_told("stick_told", "done")
         self.bench.buttons.tell("press", 2, "300ms")  # this only ends the table's message on the stick
-        eventually(lambda: screen.count(self.beside_prop(self.bench.screendump())) == 0, 20.0, "what the table says stays")
+        eventually(lambda: self.lit_beside_prop() == 0, 20.0, "what the table says stays")
         self.bench.status_says("artifact", "^nautilus-cup$", SHOWN_S)
         self.assert_at(CENTRE_M, artifact="nautilus-cup")
         self.assertEqual(self.bench.main_process(), before, "the exhibit was restarted")

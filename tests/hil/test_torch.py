@@ -2,7 +2,6 @@
 `frustumscreen render --torch` lights change, and no others beyond the tolerance. Its beam rises, so that it never meets the table, where a lamp's own
 light is shown."""
 
-import itertools
 import math
 import pathlib
 import tempfile
@@ -53,6 +52,12 @@ class Torch(HilTest):
     def place_torch(self, pose):
         self.bench.tracker.tell("pose", *pose, TORCH_STATION)
 
+    def tremble(self, torch):
+        """Moves the torch away and back."""
+        self.place_torch((*torch[:2], torch[2] + TREMBLE_M, *torch[3:]))
+        self.bench.machine.let_run(SETTLED_S / 2)
+        self.place_torch(torch)
+
     def render(self, prop, torch):
         with tempfile.TemporaryDirectory() as folder:
             config = pathlib.Path(folder) / "kiosk.toml"
@@ -69,9 +74,7 @@ class Torch(HilTest):
         said = ["nothing"]
 
         def is_so():
-            self.place_torch((torch[0], torch[1], torch[2] + TREMBLE_M, *torch[3:]))
-            self.bench.machine.let_run(SETTLED_S / 2)
-            self.place_torch(torch)
+            self.tremble(torch)
             until_s = self.bench.machine.granted_s() + SETTLED_S
             while not (found := is_seen()) and self.bench.machine.granted_s() < until_s:
                 pass
@@ -104,11 +107,9 @@ class Torch(HilTest):
             dark = self.bench.resting_picture_of(prop)
             for aim in AIMS_M:
                 with self.subTest(prop=place, aim=aim):
-                    begin, end = ([a + b for a, b in zip(place, point)] for point in (FROM_M, aim))
-                    self.changes_as_rendered(prop, pointing(begin, end), dark)
-            heights_m = itertools.cycle((FROM_M[2] + TREMBLE_M, FROM_M[2]))  # one that does not move is taken for laid down
-            self.status_says("lit", lambda: self.place_torch((*begin[:2], begin[2] - FROM_M[2] + next(heights_m),
-                                                              *pointing(begin, end)[3:])))
+                    torch = pointing(*([a + b for a, b in zip(place, point)] for point in (FROM_M, aim)))
+                    self.changes_as_rendered(prop, torch, dark)
+            self.status_says("lit", lambda torch=torch: self.tremble(torch))
             self.bench.tracker.tell("away", TORCH_STATION)
             self.status_says("lost")
             self.is_as_without(prop, dark)

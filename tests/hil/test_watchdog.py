@@ -95,7 +95,7 @@ class Watchdog(HilTest):
         for _ in range(3):
             self.kill()
         self.took("reset_device", "keeps_ending")
-        self.bench.status_says("tracker", "is running", START_S, anew=True)
+        self.bench.status_says("tracker", "is running", START_S, fresh=True)
         self.assert_lives()
         self.assertEqual(len(self.faults()), 1, f"more steps than one: {self.faults()}")
 
